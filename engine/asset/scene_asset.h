@@ -46,7 +46,9 @@ struct MorphTarget {
     std::vector<glm::vec3> normals;
 };
 
-/// One draw: attributes are empty or as long as `positions`; strips and fans come as plain triangles.
+/// One draw: attributes are empty or as long as `positions`; strips and fans come as plain
+/// triangles, line loops as closed line strips. `indices` is always filled and in range. Triangles
+/// always have unit normals. Weights are >= 0 and sum to 1; a joint without weight is 0.
 struct Primitive {
     Topology topology = Topology::kTriangles;
     std::vector<glm::vec3> positions;
@@ -68,7 +70,8 @@ struct Mesh {
 
 enum class AlphaMode : uint8_t { kOpaque, kMask, kBlend };
 
-/// Metallic-roughness material; textures are indices into `images`.
+/// Metallic-roughness material; textures are indices into `images`, never of an image that could
+/// not be decoded.
 struct Material {
     std::string name;
     glm::vec4 base_color{1.0f};
@@ -132,6 +135,9 @@ struct Light {
     float outer_cone = 0.785398f;
 };
 
+/// `roots` are those of the default scene (else of the first, else every node without parent);
+/// nodes outside it are kept. `extensions` are the scene's. `images` keeps the file's order: one
+/// that could not be decoded is empty. `warnings` has a line for everything repaired or left out.
 struct SceneAsset {
     std::filesystem::path path;
     std::vector<Node> nodes;
@@ -144,6 +150,7 @@ struct SceneAsset {
     std::vector<Camera> cameras;
     std::vector<Light> lights;
     std::vector<Extension> extensions;
+    std::vector<std::string> warnings;
 };
 
 }  // namespace vellus::asset
