@@ -57,6 +57,8 @@ struct Primitive {
     std::vector<glm::vec4> colors;
     std::vector<glm::u16vec4> joints;
     std::vector<glm::vec4> weights;
+    /// The custom attribute _THICKNESS: a strand's diameter.
+    std::vector<float> thickness;
     std::vector<uint32_t> indices;
     std::vector<MorphTarget> morph_targets;
     uint32_t material = kNone;
