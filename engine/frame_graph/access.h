@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "engine/frame_graph/types.h"
+#include "engine/frame_graph/vulkan.h"
+
+namespace vellus::graph {
+
+/// What an Access means to Vulkan. Stages and access bits are the synchronization2 values; all the
+/// graph uses fit 32 bits (ALL_TRANSFER, SHADER_READ, SHADER_WRITE instead of their refinements).
+struct AccessInfo {
+    std::string_view name;
+    uint32_t stages = 0;
+    uint32_t access = 0;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    uint32_t image_usage = 0;   ///< 0: not for images
+    uint32_t buffer_usage = 0;  ///< 0: not for buffers
+    bool reads = false;
+    bool writes = false;
+    uint8_t pass_kinds = 0;  ///< bit per PassKind
+};
+
+const AccessInfo& info(Access access);
+
+/// The layout an access needs; depth images are sampled in the layout that also allows the test.
+inline VkImageLayout layout_of(const AccessInfo& access, bool depth_format) {
+    if (depth_format && access.layout == VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) {
+        return VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL;
+    }
+    return access.layout;
+}
+
+/// Access bits that write.
+constexpr uint32_t kWriteBits = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT |
+                                VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
+                                VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_HOST_WRITE_BIT |
+                                VK_ACCESS_MEMORY_WRITE_BIT;
+constexpr uint32_t kAllStages = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+constexpr uint32_t kAllAccess = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+
+}  // namespace vellus::graph

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "engine/frame_graph/types.h"
+#include "engine/frame_graph/vulkan.h"
+
+namespace vellus::gpu {
+class CommandBuffer;
+}
+
+namespace vellus::graph {
+
+/// What a pass sees while it records: its command buffer and the resources it declared. Asking for
+/// anything else is an error (undeclared access) that ends the frame, and returns null.
+/// A raster pass is called inside its rendering, viewport and scissor set to the whole attachment.
+class PassContext {
+  public:
+    virtual ~PassContext() = default;
+
+    virtual gpu::CommandBuffer& commands() = 0;
+    virtual VkImage image(ImageHandle image) = 0;
+    /// The declared range as a 2D view (2D array where it has several layers).
+    virtual VkImageView view(ImageHandle image) = 0;
+    /// The layout the declared access uses, for descriptors.
+    virtual VkImageLayout layout(ImageHandle image) = 0;
+    virtual VkBuffer buffer(BufferHandle buffer) = 0;
+    virtual VkDeviceAddress address(BufferHandle buffer) = 0;
+    /// False on the first frame, after a resize, and where the description says restart.
+    virtual bool history_valid(ImageHandle previous) = 0;
+    [[nodiscard]] virtual const ImageDesc& desc(ImageHandle image) = 0;
+    /// Counts frames executed so far, from 0.
+    [[nodiscard]] virtual uint64_t frame() const = 0;
+};
+
+}  // namespace vellus::graph

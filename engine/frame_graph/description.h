@@ -1,0 +1,145 @@
+#pragma once
+
+#include <cstddef>
+#include <new>
+#include <source_location>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "engine/frame_graph/arena.h"
+#include "engine/frame_graph/diagnostics.h"
+#include "engine/frame_graph/records.h"
+#include "engine/frame_graph/types.h"
+
+namespace vellus::graph {
+
+class GraphDescription;
+
+/// Declares what one pass touches and the commands it records. Valid until the next reset().
+class PassBuilder {
+  public:
+    using Where = std::source_location;
+
+    /// The pass reads this version.
+    void read(ImageHandle image, Access access, ImageRange range = {}, Where = Where::current());
+    void read(BufferHandle buffer, Access access, Where = Where::current());
+
+    /// The pass writes the resource after this version; returns the version it produces.
+    [[nodiscard]] ImageHandle write(ImageHandle image, Access access, ImageRange range = {},
+                                    Load load = Load::kKeep, Where = Where::current());
+    [[nodiscard]] BufferHandle write(BufferHandle buffer, Access access, Load load = Load::kKeep,
+                                     Where = Where::current());
+
+    /// The next color attachment (location = order of the calls), one mip of one or all layers.
+    [[nodiscard]] ImageHandle color(ImageHandle image, LoadOp load = {}, ImageRange range = {},
+                                    Where = Where::current());
+    /// The depth attachment, tested and written. For a test only: read(h, Access::kDepthReadOnly).
+    [[nodiscard]] ImageHandle depth(ImageHandle image, LoadOp load = {}, ImageRange range = {},
+                                    Where = Where::current());
+
+    /// Never culled: the pass does something the graph does not see.
+    void side_effect();
+
+    /// Records the commands: `record(PassContext&)`. It captures handles and plain data only, and
+    /// is copied into the description; no destructor runs.
+    template <class F>
+    void execute(F record);
+
+  private:
+    friend class GraphDescription;
+    PassBuilder(GraphDescription* graph, uint32_t pass) : graph_(graph), pass_(pass) {}
+
+    GraphDescription* graph_;
+    uint32_t pass_;
+};
+
+/// One frame as data: resources, passes, what each pass touches, what is asked for. Describing
+/// never fails; compile() reports every mistake with pass, resource and the line that made it.
+/// Names are not copied: pass literals, or text().
+class GraphDescription {
+  public:
+    using Where = std::source_location;
+
+    ImageHandle create_image(std::string_view name, const ImageDesc& desc,
+                             Where = Where::current());
+    BufferHandle create_buffer(std::string_view name, const BufferDesc& desc,
+                               Where = Where::current());
+
+    /// A resource that lives outside: `external` is a gpu::Image* or gpu::Buffer*. `before` is how
+    /// it was last used (kNone: content undefined), `after` how it is left (kNone: as the last pass
+    /// did).
+    ImageHandle import_image(std::string_view name, const ImageDesc& desc, void* external,
+                             Access before, Access after = Access::kNone, Where = Where::current());
+    BufferHandle import_buffer(std::string_view name, const BufferDesc& desc, void* external,
+                               Access before, Access after = Access::kNone,
+                               Where = Where::current());
+
+    /// An image kept from frame to frame under its name. Reading `previous` requires writing
+    /// `next`. `restart` (camera cut) makes PassContext::history_valid false; so do first frame and
+    /// resize. Invalid history reads as zeros.
+    History history(std::string_view name, const ImageDesc& desc, bool restart = false,
+                    Where = Where::current());
+
+    PassBuilder add_pass(std::string_view name, PassKind kind, Where = Where::current());
+
+    /// Asks for this version: it stays intact to the end of the frame. Passes nothing asked for
+    /// needs are culled.
+    void output(ImageHandle image, Where = Where::current());
+    void output(BufferHandle buffer, Where = Where::current());
+
+    /// Copies text into the description, e.g. a name put together at run time.
+    std::string_view text(std::string_view text);
+
+    /// Forgets everything but keeps the memory. Handles of before become stale.
+    void reset();
+
+    [[nodiscard]] std::span<const ResourceRecord> resources() const { return resources_; }
+    [[nodiscard]] std::span<const VersionRecord> versions() const { return versions_; }
+    [[nodiscard]] std::span<const PassRecord> passes() const { return passes_; }
+    /// Grouped by pass unless !accesses_grouped().
+    [[nodiscard]] std::span<const AccessRecord> accesses() const { return accesses_; }
+    [[nodiscard]] bool accesses_grouped() const { return grouped_; }
+    [[nodiscard]] std::span<const LoadOp> clears() const { return clears_; }
+    [[nodiscard]] std::span<const OutputRecord> outputs() const { return outputs_; }
+    /// Mistakes seen while describing.
+    [[nodiscard]] std::span<const Diagnostic> problems() const { return problems_; }
+    [[nodiscard]] uint32_t generation() const { return generation_; }
+
+  private:
+    friend class PassBuilder;
+
+    uint32_t add_resource(ResourceRecord&& resource);
+    uint32_t touch(uint32_t pass, Handle handle, Access access, bool write, ImageRange range,
+                   LoadOp load, Where where);
+    bool check(Handle handle, uint32_t pass, Where where);
+    void report(Problem problem, uint32_t pass, uint32_t resource, Where where,
+                uint32_t other = kNoIndex);
+
+    std::vector<ResourceRecord> resources_;
+    std::vector<VersionRecord> versions_;
+    std::vector<PassRecord> passes_;
+    std::vector<AccessRecord> accesses_;
+    std::vector<LoadOp> clears_;
+    std::vector<OutputRecord> outputs_;
+    std::vector<Diagnostic> problems_;
+    Arena arena_;
+    uint32_t generation_ = 1;
+    bool grouped_ = true;
+};
+
+template <class F>
+void PassBuilder::execute(F record) {
+    static_assert(std::is_trivially_destructible_v<F> && std::is_trivially_copyable_v<F>,
+                  "a pass captures handles and plain data only");
+    static_assert(alignof(F) <= alignof(std::max_align_t));
+    PassRecord& pass = graph_->passes_[pass_];
+    pass.closure = new (graph_->arena_.allocate(sizeof(F), alignof(F))) F(std::move(record));
+    pass.record = [](const void* closure, PassContext& context) {
+        (*static_cast<const F*>(closure))(context);
+    };
+}
+
+}  // namespace vellus::graph

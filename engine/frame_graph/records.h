@@ -1,0 +1,70 @@
+#pragma once
+
+#include <source_location>
+#include <string_view>
+
+#include "engine/frame_graph/types.h"
+
+namespace vellus::graph {
+
+class PassContext;
+
+enum class ResourceKind : uint8_t { kImage, kBuffer };
+
+/// Who owns the memory and how long the content lives.
+enum class Origin : uint8_t { kTransient, kImported, kHistoryPrevious, kHistoryNext };
+
+struct ResourceRecord {
+    std::string_view name;
+    ResourceKind kind = ResourceKind::kImage;
+    Origin origin = Origin::kTransient;
+    Access before = Access::kNone;
+    Access after = Access::kNone;
+    bool restart = false;               ///< history only
+    uint32_t partner = kNoIndex;        ///< history only: the other resource of the pair
+    uint32_t first_version = kNoIndex;  ///< the content before any pass
+    uint32_t last_version = kNoIndex;
+    ImageDesc image{};
+    BufferDesc buffer{};
+    void* external = nullptr;
+    std::source_location where{};
+};
+
+/// One value of a resource. The chain previous/next orders the writers.
+struct VersionRecord {
+    uint32_t resource = kNoIndex;
+    uint32_t writer = kNoIndex;    ///< pass; kNoIndex: the content before any pass
+    uint32_t previous = kNoIndex;  ///< version
+    uint32_t next = kNoIndex;      ///< version
+    uint32_t number = 0;           ///< counts from 0 per resource, for messages
+};
+
+struct PassRecord {
+    std::string_view name;
+    PassKind kind = PassKind::kCompute;
+    bool side_effect = false;
+    uint32_t first_access = 0;  ///< into accesses(), where those are grouped
+    uint32_t access_count = 0;
+    const void* closure = nullptr;
+    void (*record)(const void* closure, PassContext& context) = nullptr;
+    std::source_location where{};
+};
+
+struct AccessRecord {
+    uint32_t pass = kNoIndex;
+    uint32_t resource = kNoIndex;
+    uint32_t version = kNoIndex;  ///< the one read, or the one produced
+    uint32_t clear = kNoIndex;    ///< into clears()
+    ImageRange range{};           ///< resolved: no kAll
+    Access access = Access::kNone;
+    bool write = false;
+    Load load = Load::kKeep;
+    std::source_location where{};
+};
+
+struct OutputRecord {
+    uint32_t version = kNoIndex;
+    std::source_location where{};
+};
+
+}  // namespace vellus::graph
