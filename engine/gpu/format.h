@@ -26,9 +26,12 @@ enum class Format : uint8_t {
 /// Bytes of one pixel.
 constexpr uint32_t bytes_per_pixel(Format format) {
     switch (format) {
-        case Format::kUndefined: return 0;
-        case Format::kR8Unorm: return 1;
-        case Format::kR16Float: return 2;
+        case Format::kUndefined:
+            return 0;
+        case Format::kR8Unorm:
+            return 1;
+        case Format::kR16Float:
+            return 2;
         case Format::kRgba8Unorm:
         case Format::kRgba8Srgb:
         case Format::kBgra8Unorm:
@@ -37,14 +40,19 @@ constexpr uint32_t bytes_per_pixel(Format format) {
         case Format::kR32Uint:
         case Format::kR32Float:
         case Format::kB10Gr11Ufloat:
-        case Format::kD32Float: return 4;
+        case Format::kD32Float:
+            return 4;
         case Format::kRgba16Float:
-        case Format::kRg32Float: return 8;
-        case Format::kRgba32Float: return 16;
+        case Format::kRg32Float:
+            return 8;
+        case Format::kRgba32Float:
+            return 16;
     }
     return 0;
 }
 
-constexpr bool is_depth(Format format) { return format == Format::kD32Float; }
+constexpr bool is_depth(Format format) {
+    return format == Format::kD32Float;
+}
 
 }  // namespace vellus::gpu

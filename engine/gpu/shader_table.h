@@ -6,7 +6,8 @@
 
 namespace vellus::gpu {
 
-/// One shader compiled at build time; `path` is relative to shaders/, e.g. "temporal/taa.comp.glsl".
+/// One shader compiled at build time; `path` is relative to shaders/, e.g.
+/// "temporal/taa.comp.glsl".
 struct EmbeddedShader {
     std::string_view path;
     std::span<const uint32_t> words;

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstring>
+#include <initializer_list>
+#include <span>
+
+#include "engine/gpu/pipeline_library.h"
+
+namespace vellus::gpu {
+
+/// Records into one command buffer and counts what a pass does; a view, cheap to pass around.
+class Commands {
+  public:
+    explicit Commands(VkCommandBuffer handle) : handle_(handle) {}
+
+    [[nodiscard]] VkCommandBuffer handle() const { return handle_; }
+    [[nodiscard]] uint32_t draws() const { return draws_; }
+    [[nodiscard]] uint32_t dispatches() const { return dispatches_; }
+
+    void bind(const Pipeline& pipeline);
+    /// The pass's images in binding order; depth and sampled images must be in a read layout.
+    void images(std::initializer_list<VkImageView> views);
+    void images(std::span<const VkImageView> views);
+    /// Push constants; T must be as long as the pipeline's `push_bytes`.
+    template <class T>
+    void push(const T& constants) {
+        assert(pipeline_ && sizeof(T) == pipeline_->push_bytes);
+        push_bytes(&constants, sizeof(T));
+    }
+    void dispatch(uint32_t groups_x, uint32_t groups_y = 1, uint32_t groups_z = 1);
+    /// Enough groups of `group_size` for `threads`.
+    void dispatch_threads(uint32_t threads, uint32_t group_size) {
+        dispatch((threads + group_size - 1) / group_size);
+    }
+    void draw(uint32_t vertices, uint32_t instances = 1, uint32_t first_vertex = 0);
+
+  private:
+    void push_bytes(const void* bytes, uint32_t size);
+
+    VkCommandBuffer handle_;
+    const Pipeline* pipeline_ = nullptr;
+    uint32_t draws_ = 0;
+    uint32_t dispatches_ = 0;
+};
+
+}  // namespace vellus::gpu
