@@ -18,7 +18,9 @@ missing_packages() {
     while read -r package needed_by why; do
         [[ -z $package || $package == \#* || $installed == *" $package "* ]] && continue
         for role in "$@"; do
-            [[ $role == "$needed_by" ]] && printf '%-24s %s\n' "$package" "$why"
+            if [[ $role == "$needed_by" ]]; then
+                printf '%-24s %s\n' "$package" "$why"
+            fi
         done
     done <"$root/.ci/packages"
 }
