@@ -1,0 +1,45 @@
+// Skin, cloth and other meshes: glTF 2.0's metallic-roughness material (specification, appendix B).
+// Lambert + GGX with Smith's height-correlated masking (Heitz 2014) and Schlick's Fresnel term.
+#ifndef VELLUS_PBR_GLSL
+#define VELLUS_PBR_GLSL
+#include "common/portable.glsl"
+
+struct PbrSurface {
+    vec3 base_color;  // linear, [0, 1]
+    float metallic;   // [0, 1]
+    float roughness;  // [0, 1], kept >= 0.045 so that float holds the lobe
+};
+
+VELLUS_FN vec3 pbr_f0(PbrSurface s) { return mix(vec3(0.04f), s.base_color, s.metallic); }
+
+/// Radiance to the eye per unit irradiance across the beam: BRDF times n·l; 0 below the horizon.
+VELLUS_FN vec3 pbr_direct(PbrSurface s, vec3 n, vec3 to_light, vec3 to_view) {
+    float n_l = saturate(dot(n, to_light));
+    float n_v = max(abs(dot(n, to_view)), 1.0e-4f);
+    float l_v = dot(to_light, to_view);
+    float inverse_h = inversesqrt(max(2.0f + 2.0f * l_v, 1.0e-7f));
+    float n_h = saturate((dot(n, to_light) + dot(n, to_view)) * inverse_h);
+    float l_h = saturate((1.0f + l_v) * inverse_h);
+    float alpha = square(max(s.roughness, 0.045f));
+    float a2 = alpha * alpha;
+    float d = a2 * kInvPi / square(1.0f - n_h * n_h * (1.0f - a2));
+    float g = 0.5f / max(n_l * sqrt(n_v * n_v * (1.0f - a2) + a2) +
+                             n_v * sqrt(n_l * n_l * (1.0f - a2) + a2), 1.0e-7f);
+    float k = 1.0f - l_h;
+    float k2 = k * k;
+    vec3 fresnel = mix(pbr_f0(s), vec3(1.0f), k2 * k2 * k);
+    vec3 diffuse = s.base_color * ((1.0f - s.metallic) * kInvPi);
+    return ((vec3(1.0f) - fresnel) * diffuse + fresnel * (d * g)) * n_l;
+}
+
+/// Radiance to the eye under an environment: `sh_normal` and `sh_reflected` are irradiance/π towards the
+/// normal and the reflected view. Specular share by B. Karis's fit, "Physically Based Shading on Mobile", 2014.
+VELLUS_FN vec3 pbr_environment(PbrSurface s, float n_dot_v, vec3 sh_normal, vec3 sh_reflected) {
+    float n_v = saturate(n_dot_v);
+    vec4 r = s.roughness * vec4(-1.0f, -0.0275f, -0.572f, 0.022f) + vec4(1.0f, 0.0425f, 1.04f, -0.04f);
+    float a = min(r.x * r.x, exp2(-9.28f * n_v)) * r.x + r.y;
+    vec3 specular = pbr_f0(s) * (r.z - 1.04f * a) + vec3(max(1.04f * a + r.w, 0.0f));
+    return s.base_color * (1.0f - s.metallic) * sh_normal + max(specular, vec3(0.0f)) * sh_reflected;
+}
+
+#endif

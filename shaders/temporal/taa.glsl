@@ -1,0 +1,104 @@
+// Temporal antialiasing: resolve of one pixel, without texture access.
+// Sources: B. Karis, "High Quality Temporal Supersampling", SIGGRAPH 2014 (YCoCg box, clip, luminance
+// weight); J. Jimenez, "Filmic SMAA", SIGGRAPH 2016 (Catmull-Rom in five taps).
+// Colours are pre-exposed linear RGB; every texel read goes through taa_sanitize first.
+#ifndef VELLUS_TEMPORAL_TAA_GLSL
+#define VELLUS_TEMPORAL_TAA_GLSL
+#include "common/portable.glsl"
+
+const float kTaaMax = 1024.0f;  // pre-exposed white is about 1; keeps fp16 history exact enough
+
+/// Black for NaN and infinity, else clamped to [0, kTaaMax].
+VELLUS_FN vec3 taa_sanitize(vec3 c) {
+    return is_finite(c) ? clamp(c, vec3(0.0f), vec3(kTaaMax)) : vec3(0.0f);
+}
+
+VELLUS_FN vec3 rgb_to_ycocg(vec3 c) {
+    return vec3(0.25f * c.x + 0.5f * c.y + 0.25f * c.z, 0.5f * (c.x - c.z),
+                -0.25f * c.x + 0.5f * c.y - 0.25f * c.z);
+}
+
+VELLUS_FN vec3 ycocg_to_rgb(vec3 c) {
+    float t = c.x - c.z;
+    return vec3(t + c.y, c.x + c.z, t - c.y);
+}
+
+/// Bounds of the neighbourhood in YCoCg; start with taa_box_start, add each tap.
+struct TaaBox {
+    vec3 low;
+    vec3 high;
+};
+
+VELLUS_FN TaaBox taa_box_start(vec3 ycocg) {
+    TaaBox box;
+    box.low = ycocg;
+    box.high = ycocg;
+    return box;
+}
+
+VELLUS_FN void taa_box_add(VELLUS_INOUT(TaaBox) box, vec3 ycocg) {
+    box.low = min(box.low, ycocg);
+    box.high = max(box.high, ycocg);
+}
+
+/// Moves `history` towards the centre of the box until it lies inside (line-box clip).
+VELLUS_FN vec3 taa_clip(TaaBox box, vec3 history) {
+    vec3 centre = 0.5f * (box.low + box.high);
+    vec3 extent = 0.5f * (box.high - box.low) + vec3(1.0e-5f);
+    vec3 offset = history - centre;
+    vec3 ratio = abs(offset) / extent;
+    return centre + offset / max(max(max(ratio.x, ratio.y), ratio.z), 1.0f);
+}
+
+VELLUS_FN float taa_weight(float luma) { return 1.0f / (1.0f + max(luma, 0.0f)); }
+
+/// New history, linear RGB. `current` and `history` are YCoCg, `history` already clipped; `blend` in
+/// [0, 1] is the share of the current frame: 1 where there is no history.
+VELLUS_FN vec3 taa_resolve(vec3 current, vec3 history, float blend) {
+    float wc = blend * taa_weight(current.x);
+    float wh = (1.0f - blend) * taa_weight(history.x);
+    return max(ycocg_to_rgb((current * wc + history * wh) / (wc + wh)), vec3(0.0f));
+}
+
+/// 1 (take the current frame alone) where last frame's position lies outside the image, else `blend`.
+VELLUS_FN float taa_blend(vec2 previous_uv, float blend) {
+    bool inside = previous_uv.x >= 0.0f && previous_uv.y >= 0.0f && previous_uv.x <= 1.0f &&
+                  previous_uv.y <= 1.0f;
+    return inside ? blend : 1.0f;
+}
+
+/// Catmull-Rom history in five bilinear taps at (uv12.x, uv0.y), (uv0.x, uv12.y), (uv12.x, uv12.y),
+/// (uv3.x, uv12.y), (uv12.x, uv3.y) with `weight_*`; divide by their sum, clamp to >= 0.
+struct TaaTaps {
+    vec2 uv0;
+    vec2 uv12;
+    vec2 uv3;
+    float weight_up;
+    float weight_left;
+    float weight_centre;
+    float weight_right;
+    float weight_down;
+};
+
+VELLUS_FN TaaTaps taa_catmull_rom(vec2 uv, vec2 size) {
+    vec2 position = uv * size;
+    vec2 centre = floor(position - vec2(0.5f)) + vec2(0.5f);
+    vec2 f = position - centre;
+    vec2 w0 = f * (f * (1.0f - 0.5f * f) - vec2(0.5f));
+    vec2 w1 = f * f * (1.5f * f - vec2(2.5f)) + vec2(1.0f);
+    vec2 w2 = f * (f * (2.0f - 1.5f * f) + vec2(0.5f));
+    vec2 w3 = f * f * (0.5f * f - vec2(0.5f));
+    vec2 w12 = w1 + w2;
+    TaaTaps t;
+    t.uv0 = (centre - vec2(1.0f)) / size;
+    t.uv12 = (centre + w2 / w12) / size;
+    t.uv3 = (centre + vec2(2.0f)) / size;
+    t.weight_up = w12.x * w0.y;
+    t.weight_left = w0.x * w12.y;
+    t.weight_centre = w12.x * w12.y;
+    t.weight_right = w3.x * w12.y;
+    t.weight_down = w12.x * w3.y;
+    return t;
+}
+
+#endif
