@@ -1,0 +1,71 @@
+#include "engine/ecs/executor.h"
+
+#include <algorithm>
+
+namespace vellus {
+
+Executor::Executor(std::vector<System*> systems, const ScheduleGraph& graph,
+                   const ScheduleOrder& order)
+    : waiting_for_(std::make_unique<std::atomic<uint32_t>[]>(systems.size())) {
+    for (System* system : systems) nodes_.push_back({system, 0, {}});
+    for (const uint32_t from : order.order) {
+        for (const uint32_t to : graph.successors[from]) {
+            if (order.phases[from] != order.phases[to]) continue;
+            nodes_[from].successors.push_back(to);
+            ++nodes_[to].predecessors;
+        }
+    }
+    for (const uint32_t node : order.order) {
+        if (phases_.size() <= order.phases[node]) phases_.resize(order.phases[node] + 1);
+        Phase& phase = phases_[order.phases[node]];
+        phase.nodes.push_back(node);
+        if (nodes_[node].predecessors == 0) phase.roots.push_back(node);
+        phase.exclusive = graph.accesses[node].exclusive;
+    }
+}
+
+void Executor::run(World& world) {
+    for (const Phase& phase : phases_) {
+        if (phase.exclusive) {
+            run_phase(phase);
+        } else {
+            const World::Lock lock(world);
+            run_phase(phase);
+        }
+        for (const uint32_t node : phase.nodes) nodes_[node].system->commands.apply(world);
+    }
+}
+
+void Executor::run_phase(const Phase& phase) {
+    if (phase.nodes.size() == 1) {
+        nodes_[phase.nodes[0]].system->run();
+        return;
+    }
+    for (const uint32_t node : phase.nodes) {
+        waiting_for_[node].store(nodes_[node].predecessors, std::memory_order_relaxed);
+    }
+    for (size_t i = 1; i < phase.roots.size(); ++i) spawn(phase.roots[i]);
+    run_node(phase.roots[0]);
+    tasks_.wait();
+}
+
+void Executor::spawn(uint32_t node) {
+    tasks_.run([this, node] { run_node(node); });
+}
+
+/// Runs the system, goes on with one successor that became ready, and leaves others to other cores.
+void Executor::run_node(uint32_t node) {
+    constexpr uint32_t kNone = UINT32_MAX;
+    while (node != kNone) {
+        nodes_[node].system->run();
+        uint32_t next = kNone;
+        for (const uint32_t successor : nodes_[node].successors) {
+            if (waiting_for_[successor].fetch_sub(1, std::memory_order_acq_rel) != 1) continue;
+            if (next != kNone) spawn(successor);
+            if (next == kNone) next = successor;
+        }
+        node = next;
+    }
+}
+
+}  // namespace vellus
