@@ -1,8 +1,5 @@
 #include "engine/frame_graph/access.h"
 
-#include <array>
-#include <cassert>
-
 namespace vellus::graph {
 
 namespace {
@@ -27,7 +24,9 @@ constexpr uint32_t kSampled = VK_IMAGE_USAGE_SAMPLED_BIT;
 constexpr uint32_t kStorage = VK_IMAGE_USAGE_STORAGE_BIT;
 constexpr uint32_t kBuffer = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 
-constexpr std::array<AccessInfo, static_cast<size_t>(Access::kCount)> kTable = {{
+}  // namespace
+
+const std::array<AccessInfo, static_cast<size_t>(Access::kCount)> kAccessTable = {{
     {"nothing", 0, 0, VK_IMAGE_LAYOUT_UNDEFINED, 0, 0, false, false, 0},
     {"sampled in compute", kCompute, kRead, kSampledLayout, kSampled, 0, true, false,
      bit(PassKind::kCompute)},
@@ -75,12 +74,5 @@ constexpr std::array<AccessInfo, static_cast<size_t>(Access::kCount)> kTable = {
     {"present", kAllStages, 0, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
      0, true, false, kAnyGpu},
 }};
-
-}  // namespace
-
-const AccessInfo& info(Access access) {
-    assert(access < Access::kCount);
-    return kTable[static_cast<size_t>(access)];
-}
 
 }  // namespace vellus::graph

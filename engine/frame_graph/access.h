@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
+#include <cassert>
 #include <cstdint>
 #include <string_view>
 
 #include "engine/frame_graph/types.h"
-#include "engine/frame_graph/vulkan.h"
+#include "engine/gpu/vulkan.h"
 
 namespace vellus::graph {
 
@@ -22,14 +24,11 @@ struct AccessInfo {
     uint8_t pass_kinds = 0;  ///< bit per PassKind
 };
 
-const AccessInfo& info(Access access);
+extern const std::array<AccessInfo, static_cast<size_t>(Access::kCount)> kAccessTable;
 
-/// The layout an access needs; depth images are sampled in the layout that also allows the test.
-inline VkImageLayout layout_of(const AccessInfo& access, bool depth_format) {
-    if (depth_format && access.layout == VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) {
-        return VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL;
-    }
-    return access.layout;
+inline const AccessInfo& info(Access access) {
+    assert(access < Access::kCount);
+    return kAccessTable[static_cast<size_t>(access)];
 }
 
 /// Access bits that write.

@@ -1,11 +1,7 @@
 #pragma once
 
 #include "engine/frame_graph/types.h"
-#include "engine/frame_graph/vulkan.h"
-
-namespace vellus::gpu {
-class CommandBuffer;
-}
+#include "engine/gpu/commands.h"
 
 namespace vellus::graph {
 
@@ -16,12 +12,10 @@ class PassContext {
   public:
     virtual ~PassContext() = default;
 
-    virtual gpu::CommandBuffer& commands() = 0;
+    virtual gpu::Commands& commands() = 0;
     virtual VkImage image(ImageHandle image) = 0;
     /// The declared range as a 2D view (2D array where it has several layers).
     virtual VkImageView view(ImageHandle image) = 0;
-    /// The layout the declared access uses, for descriptors.
-    virtual VkImageLayout layout(ImageHandle image) = 0;
     virtual VkBuffer buffer(BufferHandle buffer) = 0;
     virtual VkDeviceAddress address(BufferHandle buffer) = 0;
     /// False on the first frame, after a resize, and where the description says restart.

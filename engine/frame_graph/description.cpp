@@ -128,7 +128,6 @@ void GraphDescription::reset() {
     problems_.clear();
     arena_.reset();
     ++generation_;
-    grouped_ = true;
 }
 
 void GraphDescription::report(Problem problem, uint32_t pass, uint32_t resource, Where where,
@@ -145,18 +144,29 @@ bool GraphDescription::check(Handle handle, uint32_t pass, Where where) {
     return false;
 }
 
+void GraphDescription::insert(AccessRecord&& access) {
+    PassRecord& pass = passes_[access.pass];
+    const size_t at = pass.first_access + pass.access_count++;
+    if (at == accesses_.size()) {
+        accesses_.push_back(access);
+        return;
+    }
+    // A pass declared further after others were added: they move up. Rare, and then short.
+    accesses_.insert(accesses_.begin() + static_cast<ptrdiff_t>(at), access);
+    for (size_t i = access.pass + 1; i < passes_.size(); ++i) ++passes_[i].first_access;
+}
+
 uint32_t GraphDescription::touch(uint32_t pass, Handle handle, Access access, bool write,
                                  ImageRange range, LoadOp load, Where where) {
     if (!check(handle, pass, where)) return handle.version;
     ResourceRecord& resource = resources_[handle.index];
     const AccessInfo& how = info(access);
-    const bool depends = how.reads || (write && load.op == Load::kKeep && !how.writes);
     const VersionRecord before = versions_[handle.version];
     const bool undefined = before.writer == kNoIndex && resource.before == Access::kNone &&
                            resource.origin != Origin::kHistoryPrevious;
     const bool loads_attachment = load.op == Load::kKeep && (access == Access::kColorAttachment ||
                                                              access == Access::kDepthAttachment);
-    if (undefined && (depends || !write || loads_attachment)) {
+    if (undefined && (how.reads || !write || loads_attachment)) {
         report(Problem::kReadNeverWritten, pass, handle.index, where);
     }
     if (write != how.writes) report(Problem::kUnsupportedUsage, pass, handle.index, where);
@@ -174,24 +184,21 @@ uint32_t GraphDescription::touch(uint32_t pass, Handle handle, Access access, bo
         versions_[handle.version].next = version;
         resource.last_version = version;
     }
-    PassRecord& record = passes_[pass];
-    grouped_ = grouped_ && record.first_access + record.access_count == accesses_.size();
-    ++record.access_count;
     uint32_t clear = kNoIndex;
     if (load.op == Load::kClear) {
         clear = static_cast<uint32_t>(clears_.size());
         clears_.push_back(load);
     }
     const bool image = resource.kind == ResourceKind::kImage;
-    accesses_.push_back({.pass = pass,
-                         .resource = handle.index,
-                         .version = version,
-                         .clear = clear,
-                         .range = image ? resolve(range, resource.image) : ImageRange{0, 1, 0, 1},
-                         .access = access,
-                         .write = write,
-                         .load = load.op,
-                         .where = where});
+    insert({.pass = pass,
+            .resource = handle.index,
+            .version = version,
+            .clear = clear,
+            .range = image ? resolve(range, resource.image) : ImageRange{0, 1, 0, 1},
+            .access = access,
+            .write = write,
+            .load = load.op,
+            .where = where});
     return version;
 }
 

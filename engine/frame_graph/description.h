@@ -99,9 +99,10 @@ class GraphDescription {
     [[nodiscard]] std::span<const ResourceRecord> resources() const { return resources_; }
     [[nodiscard]] std::span<const VersionRecord> versions() const { return versions_; }
     [[nodiscard]] std::span<const PassRecord> passes() const { return passes_; }
-    /// Grouped by pass unless !accesses_grouped().
     [[nodiscard]] std::span<const AccessRecord> accesses() const { return accesses_; }
-    [[nodiscard]] bool accesses_grouped() const { return grouped_; }
+    [[nodiscard]] std::span<const AccessRecord> accesses(uint32_t pass) const {
+        return accesses().subspan(passes_[pass].first_access, passes_[pass].access_count);
+    }
     [[nodiscard]] std::span<const LoadOp> clears() const { return clears_; }
     [[nodiscard]] std::span<const OutputRecord> outputs() const { return outputs_; }
     /// Mistakes seen while describing.
@@ -114,6 +115,7 @@ class GraphDescription {
     uint32_t add_resource(ResourceRecord&& resource);
     uint32_t touch(uint32_t pass, Handle handle, Access access, bool write, ImageRange range,
                    LoadOp load, Where where);
+    void insert(AccessRecord&& access);
     bool check(Handle handle, uint32_t pass, Where where);
     void report(Problem problem, uint32_t pass, uint32_t resource, Where where,
                 uint32_t other = kNoIndex);
@@ -127,7 +129,6 @@ class GraphDescription {
     std::vector<Diagnostic> problems_;
     Arena arena_;
     uint32_t generation_ = 1;
-    bool grouped_ = true;
 };
 
 template <class F>

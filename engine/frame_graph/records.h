@@ -43,7 +43,7 @@ struct PassRecord {
     std::string_view name;
     PassKind kind = PassKind::kCompute;
     bool side_effect = false;
-    uint32_t first_access = 0;  ///< into accesses(), where those are grouped
+    uint32_t first_access = 0;  ///< into accesses()
     uint32_t access_count = 0;
     const void* closure = nullptr;
     void (*record)(const void* closure, PassContext& context) = nullptr;

@@ -61,7 +61,7 @@ enum class Access : uint8_t {
     kFragmentStorageReadWrite,  ///< the same, read and written (atomics too)
     kColorAttachment,           ///< through PassBuilder::color
     kDepthAttachment,           ///< through PassBuilder::depth
-    kDepthReadOnly,             ///< depth test without write; the image may be sampled as well
+    kDepthReadOnly,             ///< depth test without write; not sampled by the same pass
     kVertexBuffer,
     kIndexBuffer,
     kIndirect,
