@@ -16,6 +16,8 @@ class PassContext {
     virtual VkImage image(ImageHandle image) = 0;
     /// The declared range as a 2D view (2D array where it has several layers).
     virtual VkImageView view(ImageHandle image) = 0;
+    /// Part of it: for a pass that declared several ranges of one image.
+    virtual VkImageView view(ImageHandle image, ImageRange range) = 0;
     virtual VkBuffer buffer(BufferHandle buffer) = 0;
     virtual VkDeviceAddress address(BufferHandle buffer) = 0;
     /// False on the first frame, after a resize, and where the description says restart.
