@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/frame_graph/types.h"
-#include "engine/gpu/commands.h"
+#include "engine/gpu/command_buffer.h"
 
 namespace vellus::graph {
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "engine/gpu/buffer.h"
-#include "engine/gpu/commands.h"
+#include "engine/gpu/command_buffer.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/image.h"
 

@@ -2,7 +2,7 @@
 
 #include <glm/glm.hpp>
 
-#include "engine/gpu/commands.h"
+#include "engine/gpu/command_buffer.h"
 #include "modules/hair/geometry/strand_buffers.h"
 
 namespace vellus::hair {

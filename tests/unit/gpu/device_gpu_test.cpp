@@ -52,7 +52,7 @@ TEST_F(DeviceTest, ComputeWritesThroughADeviceAddress) {
     auto buffer = Buffer::upload_span(device(), std::span(ones), "words");
     ASSERT_TRUE(buffer);
     ASSERT_TRUE(device().submit_now("clear", [&](VkCommandBuffer handle) {
-        Commands commands(handle);
+        CommandBuffer commands(handle);
         commands.bind(**pipeline);
         commands.push(Push{buffer->address(), kCount, 0xabcdu});
         commands.dispatch_threads(kCount, 256);

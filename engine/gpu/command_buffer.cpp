@@ -1,4 +1,4 @@
-#include "engine/gpu/commands.h"
+#include "engine/gpu/command_buffer.h"
 
 namespace vellus::gpu {
 
@@ -6,16 +6,16 @@ namespace {
 constexpr size_t kMaxImages = 16;
 }
 
-void Commands::bind(const Pipeline& pipeline) {
+void CommandBuffer::bind(const Pipeline& pipeline) {
     pipeline_ = &pipeline;
     vkCmdBindPipeline(handle_, pipeline.bind_point, pipeline.handle);
 }
 
-void Commands::images(std::initializer_list<VkImageView> views) {
+void CommandBuffer::images(std::initializer_list<VkImageView> views) {
     images(std::span(views.begin(), views.size()));
 }
 
-void Commands::images(std::span<const VkImageView> views) {
+void CommandBuffer::images(std::span<const VkImageView> views) {
     assert(pipeline_ && views.size() == pipeline_->bindings.size() && views.size() <= kMaxImages);
     VkDescriptorImageInfo infos[kMaxImages];
     VkWriteDescriptorSet writes[kMaxImages];
@@ -35,7 +35,7 @@ void Commands::images(std::span<const VkImageView> views) {
                               static_cast<uint32_t>(views.size()), writes);
 }
 
-void Commands::push_bytes(const void* bytes, uint32_t size) {
+void CommandBuffer::push_bytes(const void* bytes, uint32_t size) {
     const VkShaderStageFlags stages =
         pipeline_->bind_point == VK_PIPELINE_BIND_POINT_COMPUTE
             ? VK_SHADER_STAGE_COMPUTE_BIT
@@ -43,12 +43,12 @@ void Commands::push_bytes(const void* bytes, uint32_t size) {
     vkCmdPushConstants(handle_, pipeline_->layout, stages, 0, size, bytes);
 }
 
-void Commands::dispatch(uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) {
+void CommandBuffer::dispatch(uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) {
     vkCmdDispatch(handle_, groups_x, groups_y, groups_z);
     ++dispatches_;
 }
 
-void Commands::draw(uint32_t vertices, uint32_t instances, uint32_t first_vertex) {
+void CommandBuffer::draw(uint32_t vertices, uint32_t instances, uint32_t first_vertex) {
     vkCmdDraw(handle_, vertices, instances, first_vertex, 0);
     ++draws_;
 }

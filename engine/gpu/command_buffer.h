@@ -9,9 +9,9 @@
 namespace vellus::gpu {
 
 /// Records into one command buffer and counts what a pass does; a view, cheap to pass around.
-class Commands {
+class CommandBuffer {
   public:
-    explicit Commands(VkCommandBuffer handle) : handle_(handle) {}
+    explicit CommandBuffer(VkCommandBuffer handle) : handle_(handle) {}
 
     [[nodiscard]] VkCommandBuffer handle() const { return handle_; }
     [[nodiscard]] uint32_t draws() const { return draws_; }
