@@ -12,7 +12,7 @@ class PassContext {
   public:
     virtual ~PassContext() = default;
 
-    virtual gpu::Commands& commands() = 0;
+    virtual gpu::CommandBuffer& commands() = 0;
     virtual VkImage image(ImageHandle image) = 0;
     /// The declared range as a 2D view (2D array where it has several layers).
     virtual VkImageView view(ImageHandle image) = 0;
