@@ -14,7 +14,7 @@
 
 struct HairSurface {
     vec3 base_color;  // C, linear, [0, 1]
-    float specular;   // scales R, >= 0; 1 is physical
+    float specular;   // scales R, [0, 1]; 0.5 is the physical reflection of η = 1.55
     float roughness;  // [0, 1]: β_R = r², β_TT = r²/2, β_TRT = 2 r²; β is kept >= 1e-3
     float scatter;    // scales the fake-normal term, >= 0
     float shift;      // sine of the cuticle's tilt, about 0.035 for human hair, [-0.2, 0.2]
@@ -71,7 +71,8 @@ VELLUS_FN float karis_r(HairSurface s, HairFrame f, float sin_i, float cos_i, fl
     float lobe = exp2(-0.25f * kLog2E * x * x / (beta * beta * width2)) * c2 / width2;
     // Cosine of the half angle between the directions, by their chord: ¼|ω_i + ω_r|².
     float half2 = 0.25f * (square(sin_i + f.sin_r) + square(cos_i - f.cos_r)) + cos_i * f.cos_r * c2;
-    return 0.0705236979f / beta * lobe * hair_fresnel(sqrt(half2)) * s.specular;  // 1/(4 √2 √(2π))
+    float scale = 0.141047396f / beta * s.specular;  // 2 · 1/(4 √2 √(2π)): specular 0.5 is 1
+    return scale * lobe * hair_fresnel(sqrt(half2));
 }
 
 /// M_TT N_TT: h by the slides' fit (1 - h² clamped), absorption C^(√(1 - h²a²) / 2 cos θd) as shipped,

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "engine/asset/image.h"
+
+namespace vellus::light {
+
+/// The default outdoor light: a clear sky, its sun and a plain ground. Irradiances are luminances,
+/// so that a white diffuse surface facing the sun shows radiance (sun + sky) / π, about 1.
+struct Sky {
+    /// Towards the sun; need not be unit. At or below the horizon it counts as just above.
+    glm::dvec3 to_sun{0.45, 0.62, 0.64};
+    /// Across the sun's beam.
+    double sun_irradiance = 2.5;
+    /// On a horizontal surface, without the sun.
+    double sky_irradiance = 0.5;
+    /// Linear reflectance, [0, 1].
+    glm::dvec3 ground_albedo{0.24, 0.22, 0.19};
+};
+
+struct SunLight {
+    glm::vec3 to_sun;
+    /// Across the beam, linear RGB.
+    glm::vec3 irradiance;
+};
+
+/// The sun that belongs to the sky: reddened by the air on its way (Rayleigh and haze, air mass by
+/// Kasten and Young 1989), scaled to Sky::sun_irradiance.
+SunLight sky_sun(const Sky& sky);
+
+/// The sky without the sun's disc as an equirectangular image. CIE standard clear sky, type 12
+/// (Darula and Kittler 2002), its gradation 1 - e^(-0.32 / cos Z) taken per channel with Rayleigh's
+/// λ⁻⁴, which gives the blue zenith and white horizon; below, the ground as sun and sky light it.
+asset::ImageF render_sky(const Sky& sky, uint32_t width, uint32_t height);
+
+}  // namespace vellus::light
