@@ -1,0 +1,28 @@
+#include "modules/scene/register.h"
+
+#include "modules/scene/library.h"
+#include "modules/scene/transform.h"
+#include "modules/scene/view.h"
+
+namespace vellus::scene {
+namespace {
+
+template <class T>
+void ensure_resource(World& world) {
+    if (world.find_resource<T>() == nullptr) world.emplace_resource<T>();
+}
+
+}  // namespace
+
+void register_scene(World& world, Schedule& schedule) {
+    ensure_resource<SceneLibrary>(world);
+    ensure_resource<FixedStep>(world);
+    ensure_resource<ViewSettings>(world);
+    ensure_resource<ViewState>(world);
+    ensure_resource<Hierarchy>(world);
+    schedule.order({kSimulate, kAnimate, kTransform, kView, kDeform});
+    schedule.add(propagate_transforms).in(kTransform);
+    schedule.add(update_view).in(kView);
+}
+
+}  // namespace vellus::scene
