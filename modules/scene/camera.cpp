@@ -81,7 +81,7 @@ CameraPose frame_points(std::span<const glm::dvec3> points, double yaw, double p
     }
     double distance = std::max(horizontal.distance(), vertical.distance());
     // A single point or a line towards the camera needs no distance; keep some anyway.
-    const double least = std::max(1e-3, 0.05 * (farthest - nearest));
+    const double least = farthest > nearest ? 0.05 * (farthest - nearest) : 1e-3;
     distance = std::max(distance, least - nearest);
     CameraPose pose;
     pose.axes = axes;

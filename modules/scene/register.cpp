@@ -1,6 +1,7 @@
 #include "modules/scene/register.h"
 
 #include "modules/scene/library.h"
+#include "modules/scene/stages.h"
 #include "modules/scene/transform.h"
 #include "modules/scene/view.h"
 
@@ -20,8 +21,8 @@ void register_scene(World& world, Schedule& schedule) {
     ensure_resource<ViewSettings>(world);
     ensure_resource<ViewState>(world);
     ensure_resource<Hierarchy>(world);
-    schedule.order({kSimulate, kAnimate, kTransform, kView, kDeform});
-    schedule.add(propagate_transforms).in(kTransform);
+    order_stages(schedule);
+    schedule.add(propagate_transforms).in(kTransforms);
     schedule.add(update_view).in(kView);
 }
 

@@ -5,15 +5,8 @@
 
 namespace vellus::scene {
 
-/// Sets of systems, in the order a frame runs them; see register_scene.
-constexpr std::string_view kSimulate = "simulate";    ///< game and input
-constexpr std::string_view kAnimate = "animate";      ///< writes LocalTransform
-constexpr std::string_view kTransform = "transform";  ///< LocalTransform -> WorldTransform
-constexpr std::string_view kView = "view";            ///< the frame's View
-constexpr std::string_view kDeform = "deform";        ///< palettes, bounds, strand attachments
-
 /// Resources SceneLibrary, FixedStep, ViewSettings, ViewState, Hierarchy (where the world has none)
-/// and the systems propagate_transforms and update_view; orders the sets above.
+/// and the systems propagate_transforms and update_view; orders the stages (stages.h).
 void register_scene(World& world, Schedule& schedule);
 
 }  // namespace vellus::scene
