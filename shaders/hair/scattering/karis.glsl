@@ -4,8 +4,9 @@
 //
 // Angles: θ is the inclination from the fibre's normal plane, sin θ = ω·u; u runs from root to tip; both
 // directions leave the fibre; φ = 0 scatters back, φ = π goes straight through.
-// Units: S = Σ M_p N_p [1/sr] without Marschner's 1/cos²θd, so the radiance that a beam of irradiance E
-// (measured across the beam) sends to the eye is S cos θi E. karis_direct includes cos θi.
+// Units: S = Σ M_p N_p [1/sr] with d'Eon's normalisation, ∫ M cos θi dθi = 1: the fibre's cosine is in M
+// already, so a beam of irradiance E (measured across the beam) sends S E to the eye, and ∫ S dω_i is the
+// albedo. The scattering term is a plain phase function and takes cos θi E, what falls on the fibre.
 // Domain: directions of unit length (or zero); base_color in [0, 1], the rest as beside each field.
 // Everything is finite, not negative and continuous there; no inverse trigonometry.
 #ifndef VELLUS_HAIR_KARIS_GLSL
@@ -130,12 +131,12 @@ VELLUS_FN vec3 karis_scattering(HairSurface s, HairFrame f, vec3 to_light, float
     return tinted * (s.scatter * wrap * (0.25f * kInvPi));
 }
 
-/// Radiance to the eye per unit irradiance across the beam: shadow (S + scattering) cos θi.
+/// Radiance to the eye per unit irradiance across the beam: shadow (S + scattering cos θi).
 /// `shadow` in [0, 1] is the light that reaches the fibre (1 = lit).
 VELLUS_FN vec3 karis_direct(HairSurface s, HairFrame f, vec3 to_light, float shadow) {
     float sin_i = clamp(dot(f.tangent, to_light), -1.0f, 1.0f);
     float cos_i = safe_sqrt(1.0f - sin_i * sin_i);
-    return (karis_bsdf(s, f, to_light) + karis_scattering(s, f, to_light, shadow)) * (cos_i * shadow);
+    return (karis_bsdf(s, f, to_light) + karis_scattering(s, f, to_light, shadow) * cos_i) * shadow;
 }
 
 /// Radiance to the eye under an environment; `sh_radiance` is irradiance/π in the fake normal's direction
