@@ -37,6 +37,7 @@ constexpr uint32_t kWriteBits = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_COLOR_ATT
                                 VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_HOST_WRITE_BIT |
                                 VK_ACCESS_MEMORY_WRITE_BIT;
 constexpr uint32_t kAllStages = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+constexpr uint32_t kAllStagesAndHost = kAllStages | VK_PIPELINE_STAGE_HOST_BIT;
 constexpr uint32_t kAllAccess = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
 
 }  // namespace vellus::graph

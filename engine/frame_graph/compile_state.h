@@ -1,0 +1,85 @@
+#pragma once
+
+// What the phases of compile() share. Internal to this folder.
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/frame_graph/access.h"
+#include "engine/frame_graph/compile.h"
+#include "engine/frame_graph/memory_map.h"
+
+namespace vellus::graph {
+
+/// Where synchronization of one subresource stands.
+struct SyncState {
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    uint32_t write_stages = 0;  ///< the last write, or what a layout transition was ordered before
+    uint32_t write_access = 0;
+    uint32_t read_stages = 0;  ///< reads since that write
+    uint32_t visible_stages = 0;
+    uint32_t visible_access = 0;
+    uint32_t last_step = kNoIndex;
+    bool defined = false;  ///< a pass has written it, or it came with content
+    bool operator==(const SyncState&) const = default;
+};
+
+struct ResourceState {
+    SyncState whole;
+    uint32_t split = kNoIndex;  ///< into sub_states, layer-major, once ranges differ
+    MemoryBlock block;
+    bool aliased = false;  ///< the first barrier still has to wait for the memory's former owners
+};
+
+/// All live reads of one version, so that one barrier serves them all.
+struct Readers {
+    uint32_t stages = 0;
+    uint32_t access = 0;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    bool mixed_layouts = false;
+};
+
+/// The state history images are kept in between frames.
+constexpr VkImageLayout kHistoryLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+
+struct CompileState {
+    const GraphDescription* graph = nullptr;
+    const CompileOptions* options = nullptr;
+    Plan* plan = nullptr;
+    Diagnostics* diagnostics = nullptr;
+
+    std::vector<uint32_t> seen_by;    // per resource: last pass that touched it (validation)
+    std::vector<uint8_t> needed;      // per version: its content is read later or asked for
+    std::vector<uint32_t> live_next;  // per version: the live pass that overwrites it
+    std::vector<uint32_t>
+        live_writer;              // per version: the live pass that wrote it, or the last before
+    std::vector<uint32_t> stack;  // passes to visit
+    std::vector<uint32_t> order;  // live passes, in execution order
+    std::vector<uint32_t> edge_first, edge_to, edge_count, edge_next;
+    std::vector<Readers> readers;       // per version
+    std::vector<ResourceState> states;  // per resource
+    std::vector<SyncState> sub_states;
+    std::vector<uint32_t> externals;  // resources that are not transient
+    std::vector<MemoryMap> maps;      // per pool; more than in use are kept for their memory
+
+    void report(Problem problem, uint32_t pass, uint32_t resource, std::source_location where,
+                uint32_t other = kNoIndex) const {
+        diagnostics->push_back({problem, pass, resource, other, where});
+    }
+};
+
+// The phases, in order. Each returns false after reporting what stops the compilation.
+bool validate(CompileState& s);
+bool cull(CompileState& s);
+bool order_passes(CompileState& s);
+void find_lifetimes(CompileState& s);
+bool schedule(CompileState& s);
+
+/// Places a resource for its first use; its block carries who had the memory before.
+void place(CompileState& s, uint32_t resource);
+/// Gives the memory back, tagged with the accesses that must end before it is used again.
+void release(CompileState& s, uint32_t resource);
+void begin_placement(CompileState& s);
+void end_placement(CompileState& s);
+
+}  // namespace vellus::graph

@@ -1,0 +1,236 @@
+#include "engine/frame_graph/synchronize.h"
+
+namespace vellus::graph {
+
+namespace {
+
+bool full_barriers(const CompileState& s) {
+    return s.options->switches.full_barriers || s.options->switches.immediate;
+}
+
+void begin(CompileState& s) {
+    Plan& plan = *s.plan;
+    plan.prologue.clear();
+    plan.steps.clear();
+    plan.barriers.clear();
+    plan.epilogue.clear();
+    plan.attachments.clear();
+    plan.prologue.push_back({.src_stages = kAllStages,
+                             .src_access = VK_ACCESS_MEMORY_WRITE_BIT,
+                             .dst_stages = kAllStagesAndHost,
+                             .dst_access = kAllAccess,
+                             .reason = Reason::kFrameStart,
+                             .global = true});
+    const auto resources = s.graph->resources();
+    s.states.assign(resources.size(), {});
+    s.sub_states.clear();
+    s.externals.clear();
+    for (uint32_t i = 0; i < resources.size(); ++i) {
+        const ResourceRecord& resource = resources[i];
+        if (resource.origin == Origin::kTransient) continue;
+        s.externals.push_back(i);
+        SyncState& state = s.states[i].whole;
+        if (resource.origin == Origin::kHistoryPrevious) {
+            state.layout = kHistoryLayout;
+            state.defined = true;
+        } else if (resource.before != Access::kNone) {
+            if (resource.kind == ResourceKind::kImage) state.layout = info(resource.before).layout;
+            state.defined = true;
+        }
+    }
+}
+
+Use use_of(const CompileState& s, const AccessRecord& access, uint32_t step) {
+    const AccessInfo& how = info(access.access);
+    const bool image = s.graph->resources()[access.resource].kind == ResourceKind::kImage;
+    Use use{.resource = access.resource,
+            .range = access.range,
+            .stages = how.stages,
+            .access = how.access,
+            .dst_stages = how.stages,
+            .dst_access = how.access,
+            .layout = image ? how.layout : VK_IMAGE_LAYOUT_UNDEFINED,
+            .step = step,
+            .write = access.write,
+            .defines = access.write};
+    if (!access.write) {
+        const Readers& readers = s.readers[access.version];
+        if (!image || !readers.mixed_layouts) {
+            use.dst_stages = readers.stages;
+            use.dst_access = readers.access;
+        }
+    }
+    if (full_barriers(s)) {
+        use.dst_stages = kAllStagesAndHost;
+        use.dst_access = kAllAccess;
+    }
+    return use;
+}
+
+void add_attachment(CompileState& s, const AccessRecord& access) {
+    const ResourceRecord& resource = s.graph->resources()[access.resource];
+    Attachment attachment{
+        .resource = access.resource,
+        .range = access.range,
+        .layout = info(access.access).layout,
+        .store = s.needed[access.version] != 0 || resource.origin != Origin::kTransient,
+        .read_only = !access.write};
+    if (access.clear != kNoIndex) {
+        attachment.load = s.graph->clears()[access.clear];
+    } else {
+        attachment.load.op = access.load;
+    }
+    s.plan->attachments.push_back(attachment);
+}
+
+void add_attachments(CompileState& s, Step& step) {
+    step.first_attachment = static_cast<uint32_t>(s.plan->attachments.size());
+    const auto accesses = s.graph->accesses(step.index);
+    for (const AccessRecord& access : accesses) {
+        if (access.access != Access::kColorAttachment) continue;
+        add_attachment(s, access);
+        ++step.color_count;
+    }
+    for (const AccessRecord& access : accesses) {
+        if (access.access != Access::kDepthAttachment && access.access != Access::kDepthReadOnly) {
+            continue;
+        }
+        add_attachment(s, access);
+        step.has_depth = true;
+    }
+}
+
+Step& begin_step(CompileState& s, StepKind kind, uint32_t index) {
+    const auto first = static_cast<uint32_t>(s.plan->barriers.size());
+    const auto to = static_cast<uint32_t>(s.plan->steps.size());
+    s.plan->steps.push_back({.kind = kind, .index = index, .first_barrier = first});
+    if (full_barriers(s)) {
+        s.plan->barriers.push_back({.src_stages = kAllStagesAndHost,
+                                    .src_access = VK_ACCESS_MEMORY_WRITE_BIT,
+                                    .dst_stages = kAllStagesAndHost,
+                                    .dst_access = kAllAccess,
+                                    .from = to == 0 ? kNoIndex : to - 1,
+                                    .to = to,
+                                    .reason = Reason::kFullBarrier,
+                                    .global = true});
+    }
+    return s.plan->steps.back();
+}
+
+void end_step(CompileState& s, Step& step) {
+    step.barrier_count = static_cast<uint32_t>(s.plan->barriers.size()) - step.first_barrier;
+}
+
+void poison(CompileState& s, uint32_t resource) {
+    const auto index = static_cast<uint32_t>(s.plan->steps.size());
+    Step& step = begin_step(s, StepKind::kPoison, resource);
+    const ResourceRecord& record = s.graph->resources()[resource];
+    const bool image = record.kind == ResourceKind::kImage;
+    AccessRecord fill{.resource = resource,
+                      .range = {0, static_cast<uint16_t>(image ? record.image.mips : 1), 0,
+                                static_cast<uint16_t>(image ? record.image.layers : 1)},
+                      .access = Access::kTransferWrite,
+                      .write = true};
+    Use use = use_of(s, fill, index);
+    use.defines = false;
+    synchronize(s, use, s.plan->barriers);
+    end_step(s, step);
+}
+
+void make_room(CompileState& s, uint32_t pass) {
+    for (const AccessRecord& access : s.graph->accesses(pass)) {
+        if (s.graph->resources()[access.resource].origin != Origin::kTransient ||
+            s.plan->placements[access.resource].pool != kNoIndex) {
+            continue;
+        }
+        place(s, access.resource);
+        s.plan->placements[access.resource].first_step =
+            static_cast<uint32_t>(s.plan->steps.size());
+        if (s.options->switches.poison) poison(s, access.resource);
+    }
+}
+
+void give_back(CompileState& s, uint32_t pass, uint32_t position, uint32_t step) {
+    for (const AccessRecord& access : s.graph->accesses(pass)) {
+        Placement& placement = s.plan->placements[access.resource];
+        ResourceState& state = s.states[access.resource];
+        if (placement.last_step != position || placement.pool == kNoIndex ||
+            state.block.node == kNoIndex) {
+            continue;
+        }
+        release(s, access.resource);
+        state.block.node = kNoIndex;
+        placement.last_step = step;
+    }
+}
+
+bool has_content(const CompileState& s, const AccessRecord& access, bool defined) {
+    if (defined) return true;
+    const bool loads = access.load == Load::kKeep && (access.access == Access::kColorAttachment ||
+                                                      access.access == Access::kDepthAttachment);
+    if (access.write && !info(access.access).reads && !loads) return true;
+    s.report(Problem::kReadNeverWritten, access.pass, access.resource, access.where);
+    return false;
+}
+
+bool schedule_pass(CompileState& s, uint32_t position) {
+    const uint32_t pass = s.order[position];
+    make_room(s, pass);
+    const auto index = static_cast<uint32_t>(s.plan->steps.size());
+    Step& step = begin_step(s, StepKind::kPass, pass);
+    bool complete = true;
+    for (const AccessRecord& access : s.graph->accesses(pass)) {
+        const bool defined = synchronize(s, use_of(s, access, index), s.plan->barriers);
+        complete = has_content(s, access, defined) && complete;
+    }
+    if (s.graph->passes()[pass].kind == PassKind::kRaster) add_attachments(s, step);
+    end_step(s, step);
+    give_back(s, pass, position, index);
+    return complete;
+}
+
+/// Leaves what outlives the frame as its owner expects it.
+bool hand_over(CompileState& s) {
+    bool complete = true;
+    for (const uint32_t index : s.externals) {
+        const ResourceRecord& resource = s.graph->resources()[index];
+        const bool history =
+            resource.origin == Origin::kHistoryNext && s.plan->placements[index].usage != 0;
+        if (!history && resource.after == Access::kNone) continue;
+        AccessInfo how = info(resource.after);
+        if (history) {
+            how = {.stages = kAllStages,
+                   .access = VK_ACCESS_MEMORY_READ_BIT,
+                   .layout = kHistoryLayout};
+        }
+        const bool image = resource.kind == ResourceKind::kImage;
+        const Use use{.resource = index,
+                      .range = {0, static_cast<uint16_t>(image ? resource.image.mips : 1), 0,
+                                static_cast<uint16_t>(image ? resource.image.layers : 1)},
+                      .stages = how.stages,
+                      .access = how.access,
+                      .dst_stages = how.stages,
+                      .dst_access = how.access,
+                      .layout = image ? how.layout : VK_IMAGE_LAYOUT_UNDEFINED};
+        if (synchronize(s, use, s.plan->epilogue) || !history) continue;
+        s.report(Problem::kMissingHistory, kNoIndex, index, resource.where);
+        complete = false;
+    }
+    return complete;
+}
+
+}  // namespace
+
+bool schedule(CompileState& s) {
+    begin(s);
+    begin_placement(s);
+    bool complete = true;
+    for (uint32_t position = 0; position < s.order.size(); ++position) {
+        complete = schedule_pass(s, position) && complete;
+    }
+    complete = hand_over(s) && complete;
+    end_placement(s);
+    return complete;
+}
+
+}  // namespace vellus::graph

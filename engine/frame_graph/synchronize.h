@@ -1,0 +1,29 @@
+#pragma once
+
+// Barriers for one access after another; internal to this folder.
+
+#include <vector>
+
+#include "engine/frame_graph/compile_state.h"
+
+namespace vellus::graph {
+
+/// One access to a range as synchronization sees it. `dst_*` may cover later readers as well.
+struct Use {
+    uint32_t resource = kNoIndex;
+    ImageRange range{};
+    uint32_t stages = 0;
+    uint32_t access = 0;
+    uint32_t dst_stages = 0;
+    uint32_t dst_access = 0;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< UNDEFINED for buffers
+    uint32_t step = kNoIndex;
+    bool write = false;
+    bool defines = false;  ///< afterwards the range has content
+};
+
+/// Appends what `use` needs to `batch`, or to the plan's prologue where nothing in the frame comes
+/// before it, and moves the state on. Returns false if part of the range has no content yet.
+bool synchronize(CompileState& s, const Use& use, std::vector<Barrier>& batch);
+
+}  // namespace vellus::graph
