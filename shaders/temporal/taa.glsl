@@ -57,7 +57,7 @@ VELLUS_FN float taa_weight(float luma) { return 1.0f / (1.0f + max(luma, 0.0f));
 VELLUS_FN vec3 taa_resolve(vec3 current, vec3 history, float blend) {
     float wc = blend * taa_weight(current.x);
     float wh = (1.0f - blend) * taa_weight(history.x);
-    return max(ycocg_to_rgb((current * wc + history * wh) / (wc + wh)), vec3(0.0f));
+    return max(ycocg_to_rgb(mix(history, current, wc / (wc + wh))), vec3(0.0f));
 }
 
 /// 1 (take the current frame alone) where last frame's position lies outside the image, else `blend`.

@@ -53,7 +53,8 @@ VELLUS_FN float pcf_box_filter(vec2 fraction, vec4 q00, vec4 q10, vec4 q01, vec4
 }
 
 /// Where a surface looks its shadow up: moved along its normal by the texels the filter covers, more the
-/// more the light grazes. `texel` is a texel's size in metres at the receiver.
+/// more the light grazes, so that a plane never shadows itself. `texel` is a texel's size in metres at the
+/// receiver; twice that for the 4×4 filter.
 VELLUS_FN vec3 shadow_normal_offset(vec3 normal, vec3 to_light, float texel) {
     float cosine = saturate(dot(normal, to_light));
     return normal * (texel * (0.5f + 1.5f * sqrt(1.0f - cosine * cosine)));
