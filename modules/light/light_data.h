@@ -33,7 +33,7 @@ struct LightBlock {
     uint32_t count = 0;
     uint32_t tiles = 0;
     std::array<glm::vec3, 9> environment{};
-    uint32_t padding = 0;
+    uint32_t opaque_casters = 0;
     std::array<PunctualLight, kMaxLights> light{};
 };
 static_assert(sizeof(LightBlock) == 120 + 4 * 136);

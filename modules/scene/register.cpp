@@ -1,6 +1,7 @@
 #include "modules/scene/register.h"
 
 #include "modules/scene/library.h"
+#include "modules/scene/render_frame.h"
 #include "modules/scene/stages.h"
 #include "modules/scene/transform.h"
 #include "modules/scene/view.h"
@@ -24,6 +25,9 @@ void register_scene(World& world, Schedule& schedule) {
     order_stages(schedule);
     schedule.add(propagate_transforms).in(kTransforms);
     schedule.add(update_view).in(kView);
+    if (world.find_resource<RenderFrame>() != nullptr) {
+        schedule.add(begin_frame).in(kView).after(update_view);
+    }
 }
 
 }  // namespace vellus::scene

@@ -11,7 +11,9 @@ constexpr const char* kSimulate = "simulate";      ///< input, animation, motion
 constexpr const char* kTransforms = "transforms";  ///< local to world, bounds
 constexpr const char* kView = "view";              ///< jitter, camera, start of the frame graph
 constexpr const char* kGather = "gather";          ///< lights, instances: what this frame draws
-constexpr const char* kPrepare = "prepare";        ///< passes: skinning, projection
+constexpr const char* kLighting = "lighting";      ///< passes: light block, empty shadow maps
+constexpr const char* kSkinning = "skinning";      ///< passes: vertices of animated meshes
+constexpr const char* kStrands = "strands";        ///< passes: points of hair on the screen
 constexpr const char* kShadows = "shadows";        ///< passes: shadow maps
 constexpr const char* kOpaque = "opaque";          ///< passes: meshes
 constexpr const char* kSky = "sky";                ///< passes: the background
@@ -20,8 +22,8 @@ constexpr const char* kTemporal = "temporal";      ///< passes: history
 constexpr const char* kDisplay = "display";        ///< passes: tone map, output
 
 inline void order_stages(Schedule& schedule) {
-    schedule.order({kSimulate, kTransforms, kView, kGather, kPrepare, kShadows, kOpaque, kSky,
-                    kHair, kTemporal, kDisplay});
+    schedule.order({kSimulate, kTransforms, kView, kGather, kLighting, kSkinning, kStrands,
+                    kShadows, kOpaque, kSky, kHair, kTemporal, kDisplay});
 }
 
 }  // namespace vellus::scene

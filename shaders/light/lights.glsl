@@ -33,7 +33,7 @@ layout(buffer_reference, scalar) readonly buffer Lights {
     uint count;
     uint tiles;  // shadow tiles side by side in the atlas
     Sh9 environment;
-    uint padding;
+    uint opaque_casters;  // 0: nothing is in the atlas
     PunctualLight light[4];
 };
 

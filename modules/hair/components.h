@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "modules/hair/geometry/strand_buffers.h"
+#include "modules/hair/groom/groom_report.h"
+#include "modules/hair/groom/hair_material.h"
+#include "modules/hair/techniques.h"
+
+namespace vellus::hair {
+
+/// Hair on an entity with a WorldTransform; drawn with its HairMaterial, HairWidth, HairShadow and
+/// HairTechniques.
+struct Hair {
+    uint32_t groom = 0;  ///< index into the HairLibrary
+};
+
+/// How hair shadows itself and what is below it.
+struct HairShadow {
+    float falloff = 80.0f;  ///< extinction in 1/m behind the closest hair; about 1/mean free path
+    float first = 0.002f;  ///< metres of hair that stay unshadowed, so that no strand shades itself
+};
+
+/// One groom as loaded: its strands on the device and what its file said.
+struct LibraryGroom {
+    std::string name;
+    StrandBuffers strands;
+    Bounds bounds;  ///< node space, metres
+    float width = 0.0f;
+    bool has_width_column = false;
+    bool has_colors = false;
+    GroomReport report;
+};
+
+/// All grooms of the world. Resource.
+struct HairLibrary {
+    std::vector<LibraryGroom> grooms;
+};
+
+}  // namespace vellus::hair

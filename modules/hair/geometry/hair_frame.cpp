@@ -1,0 +1,186 @@
+#include "modules/hair/geometry/hair_frame.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace vellus::hair {
+
+namespace {
+
+bool in_view(const scene::Box& box, const scene::ViewState& view) {
+    // Outside if all corners lie beyond one plane of the frustum; near is w > 0 with reversed
+    // depth.
+    std::array<int, 5> beyond{};
+    for (const glm::dvec3& corner : box.corners()) {
+        const glm::vec4 clip = view.view.view_projection * glm::vec4(view.relative(corner), 1.0f);
+        beyond[0] += clip.x < -clip.w ? 1 : 0;
+        beyond[1] += clip.x > clip.w ? 1 : 0;
+        beyond[2] += clip.y < -clip.w ? 1 : 0;
+        beyond[3] += clip.y > clip.w ? 1 : 0;
+        beyond[4] += clip.w <= 0.0f ? 1 : 0;
+    }
+    return std::ranges::none_of(beyond, [](int corners) { return corners == 8; });
+}
+
+HairEffects plan(const Hair& hair, const LibraryGroom& groom, const HairMaterial& material,
+                 const HairTechniques& chosen, bool visible, const light::LightBlock& lights) {
+    HairEffects effects{.groom = hair.groom, .techniques = chosen};
+    const bool any_strands = groom.strands.segment_count > 0;
+    if (!any_strands || material.alpha <= 0.0f || !visible) {
+        effects.drawn = false;
+        effects.opacity = !any_strands             ? EffectReason::kNoStrands
+                          : material.alpha <= 0.0f ? EffectReason::kTransparent
+                                                   : EffectReason::kOutOfView;
+        effects.scattering = effects.multiple = effects.environment = effects.opacity;
+        effects.techniques.multiple = MultipleTechnique::kNone;
+        effects.techniques.environment = EnvironmentTechnique::kNone;
+    }
+    if (lights.tiles == 0 && chosen.shadow != ShadowTechnique::kNone) {
+        effects.techniques.shadow = ShadowTechnique::kNone;
+        effects.shadow = EffectReason::kNoShadowingLight;
+    }
+    if (!any_strands || material.alpha <= 0.0f) {
+        effects.techniques.shadow = ShadowTechnique::kNone;
+        effects.shadow = effects.opacity;
+    }
+    if (!effects.drawn) return effects;
+    if (material.scatter <= 0.0f && chosen.multiple != MultipleTechnique::kNone) {
+        effects.techniques.multiple = MultipleTechnique::kNone;
+        effects.multiple = EffectReason::kNoScatter;
+    }
+    const bool dark = std::ranges::all_of(lights.environment,
+                                          [](const glm::vec3& c) { return c == glm::vec3(0.0f); });
+    if (dark && chosen.environment != EnvironmentTechnique::kNone) {
+        effects.techniques.environment = EnvironmentTechnique::kNone;
+        effects.environment = EffectReason::kNoEnvironment;
+    }
+    return effects;
+}
+
+glm::mat4 affine(const glm::dmat4& world, const glm::dvec3& camera) {
+    const glm::mat4x3 m = scene::relative_affine(world, camera);
+    return {glm::vec4(m[0], 0.0f), glm::vec4(m[1], 0.0f), glm::vec4(m[2], 0.0f),
+            glm::vec4(m[3], 1.0f)};
+}
+
+HairDraw describe_draw(const LibraryGroom& groom, const glm::dmat4& world,
+                       const HairMaterial& material, const HairWidth& width,
+                       const HairTechniques& techniques) {
+    const double volume = std::abs(glm::determinant(glm::dmat3(world)));
+    const bool from_column = width.root <= 0.0f && groom.has_width_column;
+    return {.strands = &groom.strands,
+            .world = world,
+            .width = from_column ? 0.0f : (width.root > 0.0f ? width.root : groom.width),
+            .tip_scale = width.tip_scale,
+            .scale = static_cast<float>(std::cbrt(volume)),
+            .alpha = material.alpha,
+            .opacity = techniques.opacity};
+}
+
+HairInstance describe_instance(const LibraryGroom& groom, const HairMaterial& material,
+                               const HairShadow& shadow, const HairTechniques& techniques) {
+    const StrandBuffers& strands = groom.strands;
+    const bool has_colors = groom.has_colors && material.use_groom_colors;
+    HairInstance instance{};
+    instance.positions = strands.positions.address();
+    instance.parameters = strands.parameters.address();
+    instance.colors = strands.colors.address();
+    instance.segment_point = strands.segment_point.address();
+    instance.segment_strand = strands.segment_strand.address();
+    instance.strand_seed = strands.strand_seed.address();
+    instance.flags = (has_colors ? kHasColors : 0u) |
+                     (techniques.shadow == ShadowTechnique::kPcfExponential ? kShadowed : 0u) |
+                     (techniques.environment == EnvironmentTechnique::kSh ? kEnvironment : 0u);
+    instance.base_color = material.base_color;
+    instance.color_variation = material.color_variation;
+    instance.tip_color = material.tip_color;
+    instance.gradient_start = material.gradient_start;
+    // The slider's 0.5 is a hair's own Fresnel reflectance, which the shader's 1 stands for.
+    instance.specular = 2.0f * material.specular;
+    instance.roughness = material.roughness;
+    instance.scatter =
+        techniques.multiple == MultipleTechnique::kFakeNormal ? material.scatter : 0.0f;
+    instance.shift = std::sin(material.shift);
+    instance.shadow_falloff = shadow.falloff;
+    instance.shadow_first = shadow.first;
+    return instance;
+}
+
+}  // namespace
+
+std::string_view text(EffectReason reason) {
+    switch (reason) {
+        case EffectReason::kChosen:
+            return "chosen for this groom";
+        case EffectReason::kOutOfView:
+            return "off: out of view";
+        case EffectReason::kNoShadowingLight:
+            return "off: no light casts shadows";
+        case EffectReason::kNoEnvironment:
+            return "off: the environment is black";
+        case EffectReason::kNoScatter:
+            return "off: the material's scatter is 0";
+        case EffectReason::kTransparent:
+            return "off: the material's alpha is 0";
+        case EffectReason::kNoStrands:
+            return "off: the groom has no strands";
+    }
+    return "";
+}
+
+void update_hair_bounds(Query<const Hair, const scene::WorldTransform, scene::WorldBounds> hair,
+                        Res<const HairLibrary> library) {
+    hair.each([&](const Hair& item, const scene::WorldTransform& world, scene::WorldBounds& out) {
+        const Bounds& bounds = library->grooms[item.groom].bounds;
+        scene::Box box;
+        if (!bounds.empty()) {
+            const glm::dvec3 margin(library->grooms[item.groom].width);
+            box.include(glm::dvec3(bounds.low) - margin);
+            box.include(glm::dvec3(bounds.high) + margin);
+        }
+        out.box = scene::transform(world.matrix, box);
+    });
+}
+
+void gather_hair(Query<const Hair, const scene::WorldTransform, const scene::PreviousWorldTransform,
+                       const scene::WorldBounds, const HairMaterial, const HairWidth,
+                       const HairShadow, const HairTechniques>
+                     hair,
+                 Res<const HairLibrary> library, Res<const scene::ViewState> view,
+                 Res<const light::LightSet> lights, Res<HairFrame> frame) {
+    frame->instances.clear();
+    frame->draws.clear();
+    frame->casters.clear();
+    frame->effects.clear();
+    frame->points = frame->segments = 0;
+    const scene::View& v = view->view;
+    const glm::dvec3 camera = view->pose.position;
+    hair.each([&](const Hair& item, const scene::WorldTransform& world,
+                  const scene::PreviousWorldTransform& before, const scene::WorldBounds& bounds,
+                  const HairMaterial& material, const HairWidth& width, const HairShadow& shadow,
+                  const HairTechniques& chosen) {
+        const LibraryGroom& groom = library->grooms[item.groom];
+        const HairEffects effects =
+            plan(item, groom, material, chosen, in_view(bounds.box, *view), lights->block);
+        frame->effects.push_back(effects);
+        HairDraw draw = describe_draw(groom, world.matrix, material, width, effects.techniques);
+        if (effects.techniques.shadow != ShadowTechnique::kNone) frame->casters.push_back(draw);
+        if (!effects.drawn) return;
+
+        HairInstance instance = describe_instance(groom, material, shadow, effects.techniques);
+        instance.to_relative = affine(world.matrix, camera);
+        instance.to_clip = v.view_projection_unjittered * instance.to_relative;
+        instance.previous_to_clip = v.previous_view_projection *
+                                    affine(before.known ? before.matrix : world.matrix, camera);
+        draw.to_clip = v.view_projection * instance.to_relative;
+        instance.first_id = draw.first_id = frame->segments;
+        instance.first_point = draw.first_point = frame->points;
+        frame->points += groom.strands.point_count;
+        frame->segments += groom.strands.segment_count;
+        frame->instances.push_back(instance);
+        frame->draws.push_back(draw);
+    });
+}
+
+}  // namespace vellus::hair

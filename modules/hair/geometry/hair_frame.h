@@ -1,0 +1,107 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/ecs/query.h"
+#include "engine/ecs/system.h"
+#include "modules/hair/components.h"
+#include "modules/light/light_set.h"
+#include "modules/scene/bounds.h"
+#include "modules/scene/components.h"
+#include "modules/scene/view.h"
+
+namespace vellus::hair {
+
+enum HairFlags : uint32_t { kHasColors = 1, kShadowed = 2, kEnvironment = 4 };
+
+/// Mirrors HairInstance of shaders/hair/geometry/instance.glsl, where the fields are explained.
+struct HairInstance {
+    glm::mat4 to_relative;
+    glm::mat4 to_clip;
+    glm::mat4 previous_to_clip;
+    VkDeviceAddress positions;
+    VkDeviceAddress parameters;
+    VkDeviceAddress colors;
+    VkDeviceAddress segment_point;
+    VkDeviceAddress segment_strand;
+    VkDeviceAddress strand_seed;
+    uint32_t first_id;
+    uint32_t first_point;
+    uint32_t flags;
+    float shadow_first;
+    glm::vec3 base_color;
+    float color_variation;
+    glm::vec3 tip_color;
+    float gradient_start;
+    float specular;
+    float roughness;
+    float scatter;
+    float shift;
+    float shadow_falloff;
+    float padding;
+};
+static_assert(sizeof(HairInstance) == 312);
+
+/// What passes need to rasterise one groom.
+struct HairDraw {
+    const StrandBuffers* strands = nullptr;
+    glm::dmat4 world{1.0};
+    glm::mat4 to_clip{1.0f};  ///< jittered
+    float width = 0.0f;       ///< metres in the world; 0: from the column
+    float tip_scale = 1.0f;
+    float scale = 1.0f;  ///< metres in the world per metre of the groom
+    float alpha = 1.0f;
+    OpacityTechnique opacity = OpacityTechnique::kDither;
+    uint32_t first_id = 0;
+    uint32_t first_point = 0;
+};
+
+/// Why an axis of a groom is drawn the way it is.
+enum class EffectReason : uint8_t {
+    kChosen,
+    kOutOfView,
+    kNoShadowingLight,
+    kNoEnvironment,
+    kNoScatter,
+    kTransparent,
+    kNoStrands,
+};
+std::string_view text(EffectReason reason);
+
+/// The effect plan of one groom: what this frame does for it, derived from the world.
+struct HairEffects {
+    uint32_t groom = 0;
+    HairTechniques techniques;
+    bool drawn = true;
+    EffectReason opacity = EffectReason::kChosen;
+    EffectReason shadow = EffectReason::kChosen;
+    EffectReason scattering = EffectReason::kChosen;
+    EffectReason multiple = EffectReason::kChosen;
+    EffectReason environment = EffectReason::kChosen;
+};
+
+/// All hair of this frame. Resource, written by gather_hair.
+struct HairFrame {
+    std::vector<HairInstance> instances;  ///< visible grooms
+    std::vector<HairDraw> draws;          ///< the same grooms
+    std::vector<HairDraw> casters;        ///< grooms that shadow, in view or not
+    std::vector<HairEffects> effects;     ///< all grooms
+    uint32_t points = 0;
+    uint32_t segments = 0;
+    VkDeviceAddress instance_address = 0;
+    graph::BufferHandle projected;
+};
+
+/// System: boxes of hair in the world, widened by a strand.
+void update_hair_bounds(Query<const Hair, const scene::WorldTransform, scene::WorldBounds> hair,
+                        Res<const HairLibrary> library);
+
+/// System: which grooms this frame draws, how, and why.
+void gather_hair(Query<const Hair, const scene::WorldTransform, const scene::PreviousWorldTransform,
+                       const scene::WorldBounds, const HairMaterial, const HairWidth,
+                       const HairShadow, const HairTechniques>
+                     hair,
+                 Res<const HairLibrary> library, Res<const scene::ViewState> view,
+                 Res<const light::LightSet> lights, Res<HairFrame> frame);
+
+}  // namespace vellus::hair

@@ -1,0 +1,298 @@
+#include "modules/hair/geometry/hair_passes.h"
+
+#include <span>
+
+#include "engine/frame_graph/context.h"
+
+namespace vellus::hair {
+
+namespace {
+
+using graph::Access;
+using graph::PassContext;
+using graph::PassKind;
+
+/// Push constants of shaders/hair/shadow/shadow_depth.comp.glsl.
+struct ShadowDepthPush {
+    VkDeviceAddress projected;
+    VkDeviceAddress segment_point;
+    VkDeviceAddress segment_strand;
+    VkDeviceAddress strand_seed;
+    VkDeviceAddress target;
+    glm::ivec2 size;
+    uint32_t segment_count;
+    float alpha;
+};
+static_assert(sizeof(ShadowDepthPush) == 56);
+
+/// Push constants of shaders/hair/scattering/shade.comp.glsl.
+struct ShadePush {
+    VkDeviceAddress view;
+    VkDeviceAddress lights;
+    VkDeviceAddress instances;
+    VkDeviceAddress visibility;
+    VkDeviceAddress projected;
+    uint32_t instance_count;
+    glm::ivec2 size;
+    uint32_t padding = 0;
+};
+static_assert(sizeof(ShadePush) == 56);
+
+gpu::ComputeInfo compute_info(const char* shader, uint32_t push_bytes,
+                              std::vector<gpu::Binding> bindings = {},
+                              std::vector<uint32_t> constants = {}) {
+    return {.shader = shader,
+            .bindings = std::move(bindings),
+            .push_bytes = push_bytes,
+            .constants = std::move(constants)};
+}
+
+ProjectPush project_push(const HairDraw& draw, const glm::mat4& to_clip, glm::vec2 viewport,
+                         float pixels_per_metre) {
+    const StrandBuffers& strands = *draw.strands;
+    return {.to_clip = to_clip,
+            .positions = strands.positions.address(),
+            .parameters = strands.parameters.address(),
+            .widths = strands.widths.address(),
+            .projected = 0,
+            .viewport = viewport,
+            .point_count = strands.point_count,
+            .width = draw.width,
+            .tip_scale = draw.tip_scale,
+            .pixels_per_metre = pixels_per_metre * draw.scale};
+}
+
+}  // namespace
+
+void assign_hair_shadows(Res<const HairFrame> hair, Res<light::LightSet> lights,
+                         Res<HairShadowMaps> maps, Res<scene::RenderFrame> frame) {
+    light::LightBlock& block = lights->block;
+    if (hair->casters.empty() || block.tiles == 0) return;
+    uint64_t bytes = 0;
+    for (uint32_t i = 0; i < block.count; ++i) {
+        bytes += uint64_t{4} * block.light[i].shadow_size * block.light[i].shadow_size;
+    }
+    if (maps->depth.bytes() < bytes) {
+        if (auto idle = frame->device->wait_idle(); !idle) return frame->fail(idle.error());
+        auto buffer = gpu::Buffer::create(*frame->device, bytes, gpu::MemoryKind::kDevice,
+                                          "hair shadow maps");
+        if (!buffer) return frame->fail(buffer.error());
+        maps->depth = std::move(*buffer);
+    }
+    VkDeviceAddress next = maps->depth.address();
+    for (uint32_t i = 0; i < block.count; ++i) {
+        light::PunctualLight& light = block.light[i];
+        if (light.shadow_tile == light::kNoShadow) continue;
+        light.hair_depth = next;
+        next += uint64_t{4} * light.shadow_size * light.shadow_size;
+    }
+}
+
+void describe_hair_projection(Res<HairFrame> hair, Res<HairPipelines> pipelines,
+                              Res<scene::RenderFrame> frame) {
+    if (hair->draws.empty()) return;
+    hair->instance_address =
+        frame->uploads.push_span(std::span<const HairInstance>(hair->instances));
+    if (!frame->compute(pipelines->project, [] {
+            return compute_info("hair/geometry/project.comp.glsl", sizeof(ProjectPush));
+        })) {
+        return;
+    }
+    hair->projected =
+        frame->graph.create_buffer("hair projected", {hair->points * kProjectedPointBytes});
+    auto pass = frame->graph.add_pass("hair/project", PassKind::kCompute);
+    hair->projected = pass.write(hair->projected, Access::kStorageWrite, graph::Load::kDiscard);
+    const float pixels_per_metre = 1.0f / frame->pixel_angle;
+    pass.execute([draws = std::span<const HairDraw>(hair->draws), pixels_per_metre,
+                  viewport = glm::vec2(frame->size), target = hair->projected,
+                  pipeline = pipelines->project](PassContext& context) {
+        gpu::CommandBuffer& commands = context.commands();
+        commands.bind(*pipeline);
+        for (const HairDraw& draw : draws) {
+            ProjectPush push = project_push(draw, draw.to_clip, viewport, pixels_per_metre);
+            push.projected = context.address(target) + draw.first_point * kProjectedPointBytes;
+            commands.push(push);
+            commands.dispatch_threads(push.point_count, kStrandGroupSize);
+        }
+    });
+}
+
+namespace {
+
+/// Points of all casters as one light sees them.
+graph::BufferHandle describe_light_projection(const HairFrame& hair, const light::LightSet& lights,
+                                              uint32_t index, const HairPipelines& pipelines,
+                                              scene::RenderFrame& frame) {
+    uint64_t points = 0;
+    for (const HairDraw& draw : hair.casters) points += draw.strands->point_count;
+    auto projected =
+        frame.graph.create_buffer("hair light projected", {points * kProjectedPointBytes});
+    auto pass = frame.graph.add_pass("hair/shadow_project", PassKind::kCompute);
+    projected = pass.write(projected, Access::kStorageWrite, graph::Load::kDiscard);
+    pass.execute([casters = std::span<const HairDraw>(hair.casters), projected,
+                  to_shadow = lights.world_to_shadow[index],
+                  pixels = lights.shadow_pixels_per_metre[index],
+                  size = lights.block.light[index].shadow_size,
+                  pipeline = pipelines.project](PassContext& context) {
+        gpu::CommandBuffer& commands = context.commands();
+        commands.bind(*pipeline);
+        VkDeviceAddress target = context.address(projected);
+        for (const HairDraw& draw : casters) {
+            ProjectPush push =
+                project_push(draw, glm::mat4(to_shadow * draw.world), glm::vec2(size), pixels);
+            push.projected = target;
+            commands.push(push);
+            commands.dispatch_threads(push.point_count, kStrandGroupSize);
+            target += push.point_count * kProjectedPointBytes;
+        }
+    });
+    return projected;
+}
+
+}  // namespace
+
+void describe_hair_shadows(Res<const HairFrame> hair, Res<const light::LightSet> lights,
+                           Res<HairShadowMaps> maps, Res<HairPipelines> pipelines,
+                           Res<scene::RenderFrame> frame) {
+    if (hair->casters.empty() || lights->block.tiles == 0) return;
+    if (!frame->compute(
+            pipelines->project,
+            [] { return compute_info("hair/geometry/project.comp.glsl", sizeof(ProjectPush)); }) ||
+        !frame->compute(pipelines->shadow_depth, [] {
+            return compute_info("hair/shadow/shadow_depth.comp.glsl", sizeof(ShadowDepthPush));
+        })) {
+        return;
+    }
+    graph::BufferHandle map = frame->graph.import_buffer("hair shadows", {maps->depth.bytes()},
+                                                         &maps->depth, Access::kStorageRead);
+    auto clear = frame->graph.add_pass("hair/shadow_clear", PassKind::kTransfer);
+    map = clear.write(map, Access::kTransferWrite, graph::Load::kDiscard);
+    clear.execute([map](PassContext& context) {
+        vkCmdFillBuffer(context.commands().handle(), context.buffer(map), 0, VK_WHOLE_SIZE, 0);
+    });
+    for (uint32_t index = 0; index < lights->block.count; ++index) {
+        const light::PunctualLight& light = lights->block.light[index];
+        if (light.shadow_tile == light::kNoShadow) continue;
+        const auto projected = describe_light_projection(*hair, *lights, index, *pipelines, *frame);
+        auto pass = frame->graph.add_pass("hair/shadow_depth", PassKind::kCompute);
+        pass.read(projected, Access::kStorageRead);
+        map = pass.write(map, Access::kStorageReadWrite);
+        pass.execute([casters = std::span<const HairDraw>(hair->casters), projected,
+                      target = light.hair_depth, size = light.shadow_size,
+                      pipeline = pipelines->shadow_depth](PassContext& context) {
+            gpu::CommandBuffer& commands = context.commands();
+            commands.bind(*pipeline);
+            VkDeviceAddress points = context.address(projected);
+            for (const HairDraw& draw : casters) {
+                const StrandBuffers& strands = *draw.strands;
+                commands.push(ShadowDepthPush{.projected = points,
+                                              .segment_point = strands.segment_point.address(),
+                                              .segment_strand = strands.segment_strand.address(),
+                                              .strand_seed = strands.strand_seed.address(),
+                                              .target = target,
+                                              .size = glm::ivec2(size),
+                                              .segment_count = strands.segment_count,
+                                              .alpha = draw.alpha});
+                commands.dispatch_threads(strands.segment_count, kStrandGroupSize);
+                points += strands.point_count * kProjectedPointBytes;
+            }
+        });
+    }
+    frame->hair_shadows = map;
+}
+
+namespace {
+
+/// Clears the visibility buffer and rasterises all grooms into it.
+graph::BufferHandle describe_visibility(const HairFrame& hair, HairPipelines& pipelines,
+                                        scene::RenderFrame& frame) {
+    const uint64_t pixels = uint64_t{frame.size.x} * frame.size.y;
+    auto target = frame.graph.create_buffer("hair visibility", {pixels * 8});
+    auto clear = frame.graph.add_pass("hair/visibility_clear", PassKind::kTransfer);
+    target = clear.write(target, Access::kTransferWrite, graph::Load::kDiscard);
+    clear.execute([target](PassContext& context) {
+        vkCmdFillBuffer(context.commands().handle(), context.buffer(target), 0, VK_WHOLE_SIZE, 0);
+    });
+    auto pass = frame.graph.add_pass("hair/visibility", PassKind::kCompute);
+    pass.read(hair.projected, Access::kStorageRead);
+    target = pass.write(target, Access::kStorageReadWrite);
+    pass.execute([draws = std::span<const HairDraw>(hair.draws), projected = hair.projected, target,
+                  size = glm::ivec2(frame.size), index = frame.frame_index,
+                  moving = pipelines.visibility,
+                  still = pipelines.visibility_still](PassContext& context) {
+        gpu::CommandBuffer& commands = context.commands();
+        for (const HairDraw& draw : draws) {
+            const StrandBuffers& strands = *draw.strands;
+            commands.bind(draw.opacity == OpacityTechnique::kDither ? *moving : *still);
+            commands.push(VisibilityPush{
+                .projected = context.address(projected) + draw.first_point * kProjectedPointBytes,
+                .segment_point = strands.segment_point.address(),
+                .segment_strand = strands.segment_strand.address(),
+                .strand_seed = strands.strand_seed.address(),
+                .target = context.address(target),
+                .size = size,
+                .segment_count = strands.segment_count,
+                .first_id = draw.first_id,
+                .frame = index,
+                .alpha = draw.alpha});
+            commands.dispatch_threads(strands.segment_count, kStrandGroupSize);
+        }
+    });
+    return target;
+}
+
+bool make_pipelines(const HairFrame& hair, HairPipelines& pipelines, scene::RenderFrame& frame) {
+    bool ready = frame.compute(pipelines.shade, [] {
+        using enum gpu::Binding;
+        return compute_info("hair/scattering/shade.comp.glsl", sizeof(ShadePush),
+                            {kSampledNearest, kSampledNearest, kStorage, kStorage});
+    });
+    for (const HairDraw& draw : hair.draws) {
+        const bool moving = draw.opacity == OpacityTechnique::kDither;
+        ready &= frame.compute(moving ? pipelines.visibility : pipelines.visibility_still, [&] {
+            return compute_info("hair/geometry/visibility.comp.glsl", sizeof(VisibilityPush), {},
+                                {moving ? 0u : 1u});
+        });
+    }
+    return ready;
+}
+
+}  // namespace
+
+void describe_hair(Res<HairFrame> hair, Res<const light::LightSet> lights,
+                   Res<HairPipelines> pipelines, Res<scene::RenderFrame> frame) {
+    if (hair->draws.empty() || !hair->projected) return;
+    if (!make_pipelines(*hair, *pipelines, *frame)) return;
+    const graph::BufferHandle visibility = describe_visibility(*hair, *pipelines, *frame);
+
+    auto pass = frame->graph.add_pass("hair/shade", PassKind::kCompute);
+    pass.read(visibility, Access::kStorageRead);
+    pass.read(hair->projected, Access::kStorageRead);
+    if (lights->block.tiles > 0 && !hair->casters.empty()) {
+        pass.read(frame->hair_shadows, Access::kStorageRead);
+    }
+    pass.read(frame->depth, Access::kSampledCompute);
+    pass.read(frame->opaque_shadows, Access::kSampledCompute);
+    frame->color = pass.write(frame->color, Access::kStorageWrite);
+    frame->velocity = pass.write(frame->velocity, Access::kStorageWrite);
+    ShadePush push{.view = frame->view,
+                   .lights = frame->lights,
+                   .instances = hair->instance_address,
+                   .instance_count = static_cast<uint32_t>(hair->instances.size()),
+                   .size = glm::ivec2(frame->size)};
+    pass.execute([push, visibility, projected = hair->projected, depth = frame->depth,
+                  shadows = frame->opaque_shadows, color = frame->color, velocity = frame->velocity,
+                  pipeline = pipelines->shade](PassContext& context) {
+        gpu::CommandBuffer& commands = context.commands();
+        commands.bind(*pipeline);
+        commands.images({context.view(depth), context.view(shadows), context.view(color),
+                         context.view(velocity)});
+        ShadePush full = push;
+        full.visibility = context.address(visibility);
+        full.projected = context.address(projected);
+        commands.push(full);
+        commands.dispatch((push.size.x + 7) / 8, (push.size.y + 7) / 8);
+    });
+}
+
+}  // namespace vellus::hair

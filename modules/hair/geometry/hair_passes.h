@@ -1,0 +1,41 @@
+#pragma once
+
+#include "modules/hair/geometry/hair_frame.h"
+#include "modules/hair/geometry/strand_raster.h"
+#include "modules/scene/render_frame.h"
+
+namespace vellus::hair {
+
+/// Pipelines of the hair passes, made when first needed. Resource.
+struct HairPipelines {
+    const gpu::Pipeline* project = nullptr;
+    const gpu::Pipeline* visibility = nullptr;
+    const gpu::Pipeline* visibility_still = nullptr;
+    const gpu::Pipeline* shadow_depth = nullptr;
+    const gpu::Pipeline* shade = nullptr;
+};
+
+/// Hair depth of all lights, float bits of reversed depth; made when a light first shadows hair.
+/// Resource.
+struct HairShadowMaps {
+    gpu::Buffer depth;
+};
+
+/// System: memory for the maps of lights that shadow hair, and their addresses into the LightSet.
+void assign_hair_shadows(Res<const HairFrame> hair, Res<light::LightSet> lights,
+                         Res<HairShadowMaps> maps, Res<scene::RenderFrame> frame);
+
+/// System: pass "hair/project", all points to pixels.
+void describe_hair_projection(Res<HairFrame> hair, Res<HairPipelines> pipelines,
+                              Res<scene::RenderFrame> frame);
+
+/// System: passes "hair/shadow_*", the closest hair seen from each light.
+void describe_hair_shadows(Res<const HairFrame> hair, Res<const light::LightSet> lights,
+                           Res<HairShadowMaps> maps, Res<HairPipelines> pipelines,
+                           Res<scene::RenderFrame> frame);
+
+/// System: passes "hair/visibility" and "hair/shade", hair over the picture.
+void describe_hair(Res<HairFrame> hair, Res<const light::LightSet> lights,
+                   Res<HairPipelines> pipelines, Res<scene::RenderFrame> frame);
+
+}  // namespace vellus::hair

@@ -1,0 +1,26 @@
+#include "modules/hair/register.h"
+
+#include "modules/hair/geometry/hair_passes.h"
+#include "modules/light/environment.h"
+#include "modules/scene/stages.h"
+#include "modules/scene/transform.h"
+
+namespace vellus::hair {
+
+void register_hair(World& world, Schedule& schedule) {
+    world.insert_resource(HairLibrary{});
+    world.insert_resource(HairFrame{});
+    world.insert_resource(HairPipelines{});
+    world.insert_resource(HairShadowMaps{});
+    schedule.add(update_hair_bounds).in(scene::kTransforms).after(scene::propagate_transforms);
+    schedule.add(gather_hair)
+        .in(scene::kGather)
+        .after(light::gather_lights)
+        .after(light::gather_environment);
+    schedule.add(assign_hair_shadows).in(scene::kGather).after(gather_hair);
+    schedule.add(describe_hair_projection).in(scene::kStrands);
+    schedule.add(describe_hair_shadows).in(scene::kShadows);
+    schedule.add(describe_hair).in(scene::kHair);
+}
+
+}  // namespace vellus::hair

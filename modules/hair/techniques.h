@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "engine/platform/result.h"
+#include "modules/hair/groom/hair_extension.h"
+
+namespace vellus::hair {
+
+enum class OpacityTechnique : uint8_t { kDither, kDitherStill };
+enum class ShadowTechnique : uint8_t { kNone, kPcfExponential };
+enum class ScatteringTechnique : uint8_t { kKaris };
+enum class MultipleTechnique : uint8_t { kNone, kFakeNormal };
+enum class EnvironmentTechnique : uint8_t { kNone, kSh };
+
+/// How a groom is drawn, one choice on each axis. Component; may change from frame to frame.
+struct HairTechniques {
+    OpacityTechnique opacity = OpacityTechnique::kDither;
+    ShadowTechnique shadow = ShadowTechnique::kPcfExponential;
+    ScatteringTechnique scattering = ScatteringTechnique::kKaris;
+    MultipleTechnique multiple = MultipleTechnique::kFakeNormal;
+    EnvironmentTechnique environment = EnvironmentTechnique::kSh;
+};
+
+/// The axes in their order, and the ids of the techniques on one of them, in the enum's order.
+std::span<const std::string_view> axes();
+std::span<const std::string_view> technique_ids(std::string_view axis);
+
+/// Chooses by id, e.g. ("shadow", "none"); errors list what there is.
+Result<void> set_technique(HairTechniques& techniques, std::string_view axis, std::string_view id);
+/// All ids a scene gives; empty ones leave the default.
+Result<void> set_techniques(HairTechniques& techniques, const TechniqueIds& ids);
+/// The id of the technique chosen on this axis.
+std::string_view technique_id(const HairTechniques& techniques, std::string_view axis);
+
+}  // namespace vellus::hair

@@ -1,0 +1,85 @@
+// A groom as this frame draws it; mirrored by modules/hair/geometry/hair_instance.h. GLSL only.
+#ifndef VELLUS_HAIR_INSTANCE_GLSL
+#define VELLUS_HAIR_INSTANCE_GLSL
+#include "common/portable.glsl"
+#include "hair/geometry/strands.glsl"
+
+const uint kHairHasColors = 1u;
+const uint kHairShadowed = 2u;
+const uint kHairEnvironment = 4u;
+
+struct HairInstance {
+    mat4 to_relative;       // groom to metres relative to the camera
+    mat4 to_clip;           // groom to clip space, not jittered
+    mat4 previous_to_clip;  // the same last frame
+    Vec3s positions;
+    Uints parameters;
+    Uvec2s colors;
+    Uints segment_point;
+    Uints segment_strand;
+    Uints strand_seed;
+    uint first_id;       // ids of its segments start above this
+    uint first_point;    // of its points among all projected ones
+    uint flags;
+    float shadow_first;  // metres of hair without self-shadow, besides the map's texels
+    vec3 base_color;
+    float color_variation;
+    vec3 tip_color;
+    float gradient_start;
+    float specular;
+    float roughness;
+    float scatter;
+    float shift;
+    float shadow_falloff;  // 1/m
+    float padding;
+};
+layout(buffer_reference, scalar) readonly buffer HairInstances { HairInstance at[]; };
+
+/// A point of a strand under a pixel.
+struct HairSample {
+    vec3 position;  // groom space
+    vec3 tangent;   // groom space, root to tip, not unit
+    float parameter;
+    uint strand;
+};
+
+/// Where pixel centre `pixel` meets the segment: positions perspective-correct, tangents smooth along
+/// the strand.
+HairSample hair_sample(HairInstance hair, ProjectedPoints projected, uint segment, vec2 pixel) {
+    uint i = hair.segment_point.at[segment];
+    vec4 a = projected.at[hair.first_point + i], b = projected.at[hair.first_point + i + 1u];
+    vec2 along = b.xy - a.xy;
+    float t = clamp(dot(pixel - a.xy, along) / max(dot(along, along), 1.0e-12), 0.0, 1.0);
+    t = t * b.z / max(mix(a.z, b.z, t), 1.0e-30);
+
+    float u0 = point_parameter(hair.parameters, i), u1 = point_parameter(hair.parameters, i + 1u);
+    vec3 p0 = hair.positions.at[i], p1 = hair.positions.at[i + 1u];
+    vec3 direction = p1 - p0;
+    // Root and tip have the parameters 0 and 1; elsewhere the neighbours belong to the same strand.
+    vec3 t0 = u0 > 0.0 ? p1 - hair.positions.at[i - 1u] : direction;
+    vec3 t1 = u1 < 1.0 ? hair.positions.at[i + 2u] - p0 : direction;
+
+    HairSample result;
+    result.position = mix(p0, p1, t);
+    result.tangent = mix(t0 * inversesqrt(max(dot(t0, t0), 1.0e-20)),
+                         t1 * inversesqrt(max(dot(t1, t1), 1.0e-20)), t);
+    if (dot(result.tangent, result.tangent) < 1.0e-6) result.tangent = direction;
+    result.parameter = mix(u0, u1, t);
+    result.strand = hair.segment_strand.at[segment];
+    return result;
+}
+
+/// Base colour there: gradient from root to tip, the groom's own colours, brightness by strand.
+vec3 hair_color(HairInstance hair, HairSample at, uint segment) {
+    float along = clamp((at.parameter - hair.gradient_start) / max(1.0 - hair.gradient_start, 1.0e-3),
+                        0.0, 1.0);
+    vec3 color = mix(hair.base_color, hair.tip_color, along);
+    if ((hair.flags & kHairHasColors) != 0u) {
+        uvec2 halves = hair.colors.at[hair.segment_point.at[segment]];
+        color *= vec3(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y).x);
+    }
+    float random = unit_float(hash_uint(hair.strand_seed.at[at.strand] ^ 0x5bd1e995u));
+    return clamp(color * (1.0 + hair.color_variation * (2.0 * random - 1.0)), 0.0, 1.0);
+}
+
+#endif
