@@ -96,8 +96,7 @@ HairInstance describe_instance(const LibraryGroom& groom, const HairMaterial& ma
     instance.color_variation = material.color_variation;
     instance.tip_color = material.tip_color;
     instance.gradient_start = material.gradient_start;
-    // The slider's 0.5 is a hair's own Fresnel reflectance, which the shader's 1 stands for.
-    instance.specular = 2.0f * material.specular;
+    instance.specular = material.specular;
     instance.roughness = material.roughness;
     instance.scatter =
         techniques.multiple == MultipleTechnique::kFakeNormal ? material.scatter : 0.0f;

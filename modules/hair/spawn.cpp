@@ -1,0 +1,101 @@
+#include "modules/hair/spawn.h"
+
+#include <algorithm>
+
+#include "engine/platform/log.h"
+#include "modules/hair/components.h"
+#include "modules/hair/groom/groom_file.h"
+#include "modules/hair/groom/upright.h"
+#include "modules/light/light_set.h"
+#include "modules/scene/bounds.h"
+#include "modules/scene/library.h"
+
+namespace vellus::hair {
+
+namespace {
+
+void log_report(const std::string& name, const GroomReport& report) {
+    const std::string text = to_text(report);
+    for (size_t start = 0; start < text.size();) {
+        const size_t end = std::min(text.find('\n', start), text.size());
+        log_info("{}: {}", name, text.substr(start, end - start));
+        start = end + 1;
+    }
+}
+
+scene::LocalTransform local_transform(const HairExtension& look) {
+    return {.translation = look.translation,
+            .rotation = glm::quat(look.rotation),
+            .scale = glm::vec3(look.scale)};
+}
+
+}  // namespace
+
+Result<uint32_t> add_groom(World& world, gpu::Device& device, const std::filesystem::path& path,
+                           bool upright) {
+    auto& library = world.resource<HairLibrary>();
+    const std::string name = path.string() + (upright ? "" : " (as in the file)");
+    const auto known = std::ranges::find(library.grooms, name, &LibraryGroom::name);
+    if (known != library.grooms.end()) {
+        return static_cast<uint32_t>(known - library.grooms.begin());
+    }
+    auto loaded = load_groom(path);
+    if (!loaded) return loaded.error();
+    log_report(path.filename().string(), loaded->report);
+    const Groom& groom = loaded->groom;
+    glm::dmat4 to_metres(1.0);
+    double metres_per_unit = 1.0;
+    if (upright) {
+        const Upright turn = upright_transform(groom);
+        log_info("{}: {}", path.filename().string(), turn.reason);
+        to_metres = turn.to_metres;
+        metres_per_unit = turn.metres_per_unit;
+    }
+    const auto width = static_cast<float>(default_width(groom, metres_per_unit));
+    const StrandData strands = prepare_strands(groom, to_metres, width);
+    auto buffers = StrandBuffers::upload(device, strands);
+    if (!buffers) return buffers.error();
+    library.grooms.push_back({.name = name,
+                              .strands = std::move(*buffers),
+                              .bounds = strands.bounds,
+                              .width = strands.width,
+                              .has_width_column = !strands.point_width.empty(),
+                              .has_colors = !strands.point_color.empty(),
+                              .report = loaded->report});
+    return static_cast<uint32_t>(library.grooms.size() - 1);
+}
+
+Result<Entity> spawn_hair(World& world, gpu::Device& device, const std::filesystem::path& path,
+                          const HairExtension& look, Entity parent) {
+    HairTechniques techniques;
+    if (auto set = set_techniques(techniques, look.techniques); !set) return set.error();
+    auto groom = add_groom(world, device, path, look.upright);
+    if (!groom) return groom.error();
+    const Entity entity =
+        world.spawn(Hair{*groom}, look.material, look.width, HairShadow{}, techniques,
+                    local_transform(look), scene::WorldTransform{}, scene::PreviousWorldTransform{},
+                    scene::WorldBounds{}, light::ShadowFocus{});
+    if (parent != kNoEntity) world.add(entity, scene::Parent{parent});
+    return entity;
+}
+
+Result<void> spawn_scene_hair(World& world, gpu::Device& device, uint32_t instance) {
+    const auto& scenes = world.resource<scene::SceneLibrary>();
+    const scene::SceneInstance& placed = scenes.instances[instance];
+    const asset::SceneAsset& asset = scenes.asset_of(placed);
+    for (size_t node = 0; node < asset.nodes.size(); ++node) {
+        const std::string* json =
+            scene::find_extension(asset.nodes[node].extensions, kHairExtensionName);
+        if (!json || placed.nodes[node] == kNoEntity) continue;
+        auto look = parse_hair_extension(*json, fmt::format("{}: node {} '{}'", asset.path.string(),
+                                                            node, asset.nodes[node].name));
+        if (!look) return look.error();
+        for (const std::string& warning : look->warnings) log_warning("{}", warning);
+        auto spawned = spawn_hair(world, device, asset.path.parent_path() / look->groom, *look,
+                                  placed.nodes[node]);
+        if (!spawned) return spawned.error();
+    }
+    return {};
+}
+
+}  // namespace vellus::hair

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+#include "engine/ecs/ecs.h"
+#include "engine/gpu/device.h"
+#include "modules/hair/groom/hair_extension.h"
+
+namespace vellus::hair {
+
+/// Loads a groom into the world's HairLibrary and logs its report; the same file is loaded once.
+/// `upright`: turn it upright and into metres (groom/upright.h).
+Result<uint32_t> add_groom(World& world, gpu::Device& device, const std::filesystem::path& path,
+                           bool upright);
+
+/// An entity that wears hair: a child of `parent` (kNoEntity: a root).
+Result<Entity> spawn_hair(World& world, gpu::Device& device, const std::filesystem::path& path,
+                          const HairExtension& look, Entity parent);
+
+/// Hair of every node of the instance that has VELLUS_hair; grooms are relative to its file.
+Result<void> spawn_scene_hair(World& world, gpu::Device& device, uint32_t instance);
+
+}  // namespace vellus::hair
