@@ -11,6 +11,10 @@ namespace vellus::hair {
 
 enum class GroomFormat : uint8_t { kNone, kHair, kTfx3, kTfx4, kGltf };
 
+/// Diameters in metres that a strand may have.
+constexpr double kThinnestStrand = 1e-6;
+constexpr double kThickestStrand = 0.05;
+
 /// An axis-aligned box; `low > high` in every axis means empty.
 struct Bounds {
     glm::vec3 low{std::numeric_limits<float>::max()};
@@ -57,12 +61,26 @@ struct Groom {
     bool has_default_color = false;
     /// Free text of the file, e.g. its author.
     std::string info;
+    /// What the reader had to decide, one line each.
+    std::vector<std::string> notes;
 
     [[nodiscard]] size_t strand_count() const { return strand_begin.size() - 1; }
     [[nodiscard]] uint32_t point_count(size_t strand) const {
         return strand_begin[strand + 1] - strand_begin[strand];
     }
 };
+
+/// Diameter at `point` of `strand`, from whichever the groom has: points, strands or its default.
+float thickness_at(const Groom& groom, size_t strand, size_t point);
+/// 0 opaque to 1 clear, from the transparency column, the colours' alpha or the default.
+float transparency_at(const Groom& groom, size_t point);
+/// Colour (the default, or white, where there is no column) and 1 - transparency, as the file
+/// encodes them.
+glm::vec4 color_at(const Groom& groom, size_t point);
+/// The same with linear RGB: .hair and .tfx give colours as sRGB, glTF gives them linear.
+glm::vec4 linear_color_at(const Groom& groom, size_t point);
+glm::vec3 linear_default_color(const Groom& groom);
+bool has_colors(const Groom& groom);
 
 /// Box of all points, in the file's unit.
 Bounds bounds_of(const Groom& groom);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "modules/hair/groom/groom.h"
 
@@ -21,19 +22,21 @@ struct GroomReport {
 
     /// Segments of length zero: kept in the columns, skipped when segments are prepared.
     uint64_t zero_segments = 0;
-    /// Segments shorter than 1e-5 of the mean strand length, zero ones not counted: kept and drawn.
+    /// Segments shorter than 1e-5 of the file's unit, zero ones not counted: kept and drawn.
     uint64_t tiny_segments = 0;
     /// Neighbouring segments that turn by 180 degrees: kept, tangents stay bounded.
     uint64_t folds = 0;
     /// Strands with fewer than two points: dropped.
     uint64_t short_strands = 0;
-    /// Strands with a NaN or infinite coordinate: dropped.
+    /// Strands with a coordinate that is NaN, infinite or beyond 1e9: dropped.
     uint64_t non_finite_strands = 0;
     /// Strands whose points all coincide: dropped, nothing of them can be drawn.
     uint64_t collapsed_strands = 0;
     /// Thickness, transparency, colour or UV values that were NaN, infinite or out of range:
     /// clamped.
     uint64_t clamped_attributes = 0;
+    /// What the reader had to decide, one line each.
+    std::vector<std::string> notes;
 
     [[nodiscard]] bool clean() const {
         return zero_segments + tiny_segments + folds + short_strands + non_finite_strands +

@@ -16,25 +16,26 @@ struct HairMaterial {
     float gradient_start = 0.0f;
     /// Spread of brightness between strands, in [0, 1]: a strand's colour is scaled by 1 +- this.
     float color_variation = 0.1f;
-    /// Multiply by the groom's own colours, where it has them.
+    /// Where the groom has colours of its own they replace base_color and tip_color.
     bool use_groom_colors = true;
 
-    /// Strength of the surface reflection, in [0, 1]; 0.5 is a hair's index of refraction, 1.55.
-    float specular = 0.5f;
-    /// Longitudinal roughness, in [0.05, 1].
+    /// Factor on the surface reflection, in [0, 4]; 1 is physical.
+    float specular = 1.0f;
+    /// Perceptual roughness along the strand, in [0, 1].
     float roughness = 0.3f;
-    /// Strength of the multiple-scattering term, in [0, 1].
+    /// Factor on the multiple-scattering term, in [0, 4].
     float scatter = 1.0f;
-    /// Tilt of the cuticle scales in radians, in [-0.2, 0.2]; two degrees in human hair.
+    /// Sine of the cuticle scales' tilt, in [-0.2, 0.2]; two degrees in human hair.
     float shift = 0.035f;
     /// Opacity of a strand, in [0, 1].
     float alpha = 1.0f;
 };
 
-/// Strand diameter in metres at root and tip; each in (0, 0.05]. Zero root: taken from the groom.
+/// Diameter of a strand and its taper.
 struct HairWidth {
+    /// Metres, in [0, 0.05]; 0: the groom's own (its thickness, or default_width()).
     float root = 0.0f;
-    /// Fraction of the root's width that is left at the tip, in [0, 1].
+    /// Fraction of that diameter which is left at the tip, in [0, 1].
     float tip_scale = 0.3f;
 };
 
@@ -44,11 +45,11 @@ struct Melanin {
     float pheomelanin = 0.0f;
 };
 
-/// Colour of hair with these pigments: absorption by d'Eon et al. 2011 (An Energy-Conserving Hair
-/// Reflectance Model, 5.1), turned into reflectance by Chiang et al. 2016 eq. 9 at roughness 0.3.
+/// Base colour of hair with these pigments (hair/scattering/melanin.glsl), each in [0, 100].
 glm::vec3 melanin_color(Melanin melanin);
 
-/// From two sliders in [0, 1] to pigments: amount -ln(1 - melanin), split by redness.
+/// From two sliders in [0, 1] to pigments: amount -ln(1 - melanin), at most 9.2, split by redness;
+/// the artist controls of Unreal's and Cycles' hair.
 Melanin melanin_from_sliders(float melanin, float redness);
 
 /// Moves every parameter into its range (NaN becomes the default); one line per change, naming the

@@ -28,8 +28,9 @@ struct Upright {
 /// face +Z).
 Upright upright_transform(const Groom& groom);
 
-/// Strand diameter in metres after `to_metres`: the file's mean thickness where it gives one; else
-/// so that strands side by side cover the hair's silhouette eight times, within [0.06, 1.5] mm.
+/// Strand diameter in metres after `to_metres`: the file's mean thickness where it gives one,
+/// within [kThinnestStrand, kThickestStrand]; else so that strands side by side cover the hair's
+/// silhouette eight times (few strands are drawn thicker), within [0.06, 1.5] mm.
 double default_width(const Groom& groom, double metres_per_unit);
 
 }  // namespace vellus::hair

@@ -1,0 +1,235 @@
+#include "modules/hair/groom/strand_data.h"
+
+#include <oneapi/tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+#include <mutex>
+
+#include "engine/platform/jobs.h"
+
+namespace vellus::hair {
+
+namespace {
+
+constexpr size_t kStrandsPerJob = 256;
+/// Ends closer than this, in metres, coincide: a hair's diameter is 1e-4.
+constexpr double kShortestSegment = 1e-9;
+constexpr float kParameterScale = 65535.0f;
+
+/// Spreads ten bits three apart.
+uint32_t spread_bits(uint32_t bits) {
+    bits = (bits | (bits << 16U)) & 0x030000FFU;
+    bits = (bits | (bits << 8U)) & 0x0300F00FU;
+    bits = (bits | (bits << 4U)) & 0x030C30C3U;
+    return (bits | (bits << 2U)) & 0x09249249U;
+}
+
+uint32_t morton_code(glm::vec3 unit) {
+    const glm::uvec3 cell(glm::clamp(unit, 0.0f, 1.0f) * 1023.0f);
+    return spread_bits(cell.x) | (spread_bits(cell.y) << 1U) | (spread_bits(cell.z) << 2U);
+}
+
+/// Bijective mixer with low bias (Wellons, "Prospecting for Hash Functions", lowbias32).
+uint32_t mix_bits(uint32_t x) {
+    x = (x ^ (x >> 16U)) * 0x7feb352dU;
+    x = (x ^ (x >> 15U)) * 0x846ca68bU;
+    return x ^ (x >> 16U);
+}
+
+glm::vec3 place(const glm::dmat4& to_metres, glm::vec3 point) {
+    return {to_metres * glm::dvec4(point, 1.0)};
+}
+
+bool coincide(glm::vec3 a, glm::vec3 b) {
+    return glm::distance(glm::dvec3(a), glm::dvec3(b)) < kShortestSegment;
+}
+
+/// Calls `visit(point index, position)` for the points of a strand that differ from the one before.
+template <class Visit>
+void visit_points(const Groom& groom, const glm::dmat4& to_metres, size_t strand,
+                  const Visit& visit) {
+    glm::vec3 last(0.0f);
+    for (uint32_t p = groom.strand_begin[strand]; p < groom.strand_begin[strand + 1]; ++p) {
+        const glm::vec3 position = place(to_metres, groom.points[p]);
+        if (p > groom.strand_begin[strand] && coincide(position, last)) continue;
+        last = position;
+        visit(p, position);
+    }
+}
+
+/// Strand indices along a Morton curve through the roots.
+std::vector<uint32_t> sort_strands(const Groom& groom) {
+    Bounds roots;
+    for (size_t strand = 0; strand < groom.strand_count(); ++strand) {
+        roots.add(groom.points[groom.strand_begin[strand]]);
+    }
+    const glm::vec3 size = glm::max(roots.size(), glm::vec3(1e-30f));
+    std::vector<uint64_t> keys(groom.strand_count());
+    parallel_ranges(keys.size(), kStrandsPerJob, [&](size_t first, size_t last) {
+        for (size_t strand = first; strand < last; ++strand) {
+            const glm::vec3 root = groom.points[groom.strand_begin[strand]];
+            keys[strand] = (uint64_t{morton_code((root - roots.low) / size)} << 32U) | strand;
+        }
+    });
+    oneapi::tbb::parallel_sort(keys.begin(), keys.end());
+    std::vector<uint32_t> order(keys.size());
+    std::ranges::transform(keys, order.begin(),
+                           [](uint64_t key) { return static_cast<uint32_t>(key); });
+    return order;
+}
+
+/// Sets strand_source and strand_begin: sorted, without strands that have no segment left.
+void lay_out_strands(const Groom& groom, const glm::dmat4& to_metres, StrandData& data) {
+    const std::vector<uint32_t> order = sort_strands(groom);
+    std::vector<uint32_t> counts(order.size());
+    parallel_ranges(order.size(), kStrandsPerJob, [&](size_t first, size_t last) {
+        for (size_t i = first; i < last; ++i) {
+            uint32_t count = 0;
+            visit_points(groom, to_metres, order[i], [&](uint32_t, glm::vec3) { ++count; });
+            counts[i] = count;
+        }
+    });
+    data.strand_begin.assign(1, 0);
+    data.strand_begin.reserve(order.size() + 1);
+    data.strand_source.reserve(order.size());
+    for (size_t i = 0; i < order.size(); ++i) {
+        data.skipped_segments += groom.point_count(order[i]) - counts[i];
+        if (counts[i] < 2) continue;
+        data.strand_source.push_back(order[i]);
+        data.strand_begin.push_back(data.strand_begin.back() + counts[i]);
+    }
+}
+
+/// Which optional columns the groom really needs.
+struct Columns {
+    bool colors = false;
+    bool widths = false;
+};
+
+template <class T>
+bool varies(const std::vector<T>& column) {
+    return std::ranges::any_of(column, [&](const T& value) { return value != column.front(); });
+}
+
+Columns choose_columns(const Groom& groom, float width, StrandData& data) {
+    data.has_color = has_colors(groom);
+    data.width = width;
+    if (!groom.points.empty()) data.color = linear_color_at(groom, 0);
+    return {.colors = varies(groom.colors) || varies(groom.transparency),
+            .widths = varies(groom.thickness)};
+}
+
+void resize_columns(const Columns& columns, StrandData& data) {
+    const size_t strands = data.strand_source.size();
+    const size_t points = data.strand_begin.back();
+    data.positions.resize(points);
+    data.point_parameter.resize(points);
+    if (columns.widths) data.point_width.resize(points);
+    if (columns.colors) data.point_color.resize(points);
+    data.strand_seed.resize(strands);
+    data.strand_uv.resize(strands);
+    data.strand_length.resize(strands);
+    data.segment_point.resize(points - strands);
+    data.segment_strand.resize(points - strands);
+}
+
+glm::uvec2 pack_halves(glm::vec4 color) {
+    return {glm::packHalf2x16({color.r, color.g}), glm::packHalf2x16({color.b, color.a})};
+}
+
+glm::vec2 root_uv(const Groom& groom, uint32_t strand) {
+    if (!groom.strand_uvs.empty()) return groom.strand_uvs[strand];
+    return groom.point_uvs.empty() ? glm::vec2(0.0f) : groom.point_uvs[groom.strand_begin[strand]];
+}
+
+/// Fills the columns of strands; several run at once, each on its own range.
+class Filler {
+  public:
+    Filler(const Groom& groom, const glm::dmat4& to_metres, double unit, StrandData& data)
+        : groom_(groom), to_metres_(to_metres), unit_(unit), data_(data) {}
+
+    void fill(size_t strand) {
+        const uint32_t source = data_.strand_source[strand];
+        const uint32_t begin = data_.strand_begin[strand];
+        uint32_t to = begin;
+        visit_points(groom_, to_metres_, source, [&](uint32_t from, glm::vec3 position) {
+            data_.positions[to] = position;
+            if (!data_.point_width.empty()) {
+                const double given = thickness_at(groom_, source, from) * unit_;
+                data_.point_width[to] = static_cast<float>(
+                    given > 0.0 ? std::clamp(given, kThinnestStrand, kThickestStrand)
+                                : data_.width);
+            }
+            if (!data_.point_color.empty()) {
+                data_.point_color[to] = pack_halves(linear_color_at(groom_, from));
+            }
+            bounds_.add(position);
+            ++to;
+        });
+        data_.strand_seed[strand] = mix_bits(source + 1);
+        data_.strand_uv[strand] = root_uv(groom_, source);
+        fill_lengths(strand);
+    }
+
+    void merge_into(StrandData& data) const {
+        if (bounds_.empty()) return;
+        data.bounds.add(bounds_.low);
+        data.bounds.add(bounds_.high);
+        data.max_segment_length = std::max(data.max_segment_length, longest_);
+    }
+
+  private:
+    void fill_lengths(size_t strand) {
+        const uint32_t begin = data_.strand_begin[strand];
+        const uint32_t end = data_.strand_begin[strand + 1];
+        double total = 0.0;
+        for (uint32_t p = begin; p + 1 < end; ++p) total += length_after(p);
+        double along = 0.0;
+        for (uint32_t p = begin; p + 1 < end; ++p) {
+            data_.point_parameter[p] = to_parameter(along / total);
+            const double length = length_after(p);
+            longest_ = std::max(longest_, static_cast<float>(length));
+            along += length;
+            const size_t segment = p - strand;
+            data_.segment_point[segment] = p;
+            data_.segment_strand[segment] = static_cast<uint32_t>(strand);
+        }
+        data_.point_parameter[end - 1] = to_parameter(1.0);
+        data_.strand_length[strand] = static_cast<float>(total);
+    }
+    [[nodiscard]] double length_after(uint32_t point) const {
+        return glm::distance(glm::dvec3(data_.positions[point]),
+                             glm::dvec3(data_.positions[point + 1]));
+    }
+    static uint16_t to_parameter(double value) {
+        return static_cast<uint16_t>(std::lround(value * kParameterScale));
+    }
+
+    const Groom& groom_;
+    const glm::dmat4& to_metres_;
+    double unit_;
+    StrandData& data_;
+    Bounds bounds_;
+    float longest_ = 0.0f;
+};
+
+}  // namespace
+
+StrandData prepare_strands(const Groom& groom, const glm::dmat4& to_metres, float width) {
+    StrandData data;
+    const double unit = std::cbrt(std::abs(glm::determinant(glm::dmat3(to_metres))));
+    lay_out_strands(groom, to_metres, data);
+    resize_columns(choose_columns(groom, width, data), data);
+    std::mutex merging;
+    parallel_ranges(data.strand_source.size(), kStrandsPerJob, [&](size_t first, size_t last) {
+        Filler filler(groom, to_metres, unit, data);
+        for (size_t strand = first; strand < last; ++strand) filler.fill(strand);
+        const std::scoped_lock lock(merging);
+        filler.merge_into(data);
+    });
+    return data;
+}
+
+}  // namespace vellus::hair
