@@ -74,7 +74,10 @@ asset::ImageF render_sky(const Sky& sky, uint32_t width, uint32_t height) {
     const double scale = sky.sky_irradiance / glm::dot(unscaled, kLuminance);
     const glm::dvec3 ground = sky.ground_albedo * std::numbers::inv_pi *
                               (unscaled * scale + sun_irradiance(sky) * to_sun.y);
-    asset::ImageF image{width, height, std::vector<float>(size_t{width} * height * 4, 1.0f)};
+    asset::ImageF image;
+    image.width = width;
+    image.height = height;
+    image.rgba.assign(size_t{width} * height * 4, 1.0f);
     parallel_ranges(height, 8, [&](size_t first, size_t last) {
         for (size_t row = first; row < last; ++row) {
             const double latitude = (0.5 - (row + 0.5) / height) * std::numbers::pi;
