@@ -1,5 +1,7 @@
 // Skin, cloth and other meshes: glTF 2.0's metallic-roughness material (specification, appendix B).
-// Lambert + GGX with Smith's height-correlated masking (Heitz 2014) and Schlick's Fresnel term.
+// Lambert + GGX with Smith's height-correlated masking (Heitz 2014) and Schlick's Fresnel term. Below the
+// surface arrives what its reflection left, once on the way in and once out (Shirley et al. 1997), so the
+// sum stays below 1; glTF's own 1 - F(v·h) adds up to 1.3 at grazing angles.
 #ifndef VELLUS_PBR_GLSL
 #define VELLUS_PBR_GLSL
 #include "common/portable.glsl"
@@ -11,6 +13,11 @@ struct PbrSurface {
 };
 
 VELLUS_FN vec3 pbr_f0(PbrSurface s) { return mix(vec3(0.04f), s.base_color, s.metallic); }
+
+VELLUS_FN float pbr_fifth_power(float x) {
+    float x2 = x * x;
+    return x2 * x2 * x;
+}
 
 /// Radiance to the eye per unit irradiance across the beam: BRDF times n·l; 0 below the horizon.
 VELLUS_FN vec3 pbr_direct(PbrSurface s, vec3 n, vec3 to_light, vec3 to_view) {
@@ -25,11 +32,12 @@ VELLUS_FN vec3 pbr_direct(PbrSurface s, vec3 n, vec3 to_light, vec3 to_view) {
     float d = a2 * kInvPi / square(1.0f - n_h * n_h * (1.0f - a2));
     float g = 0.5f / max(n_l * sqrt(n_v * n_v * (1.0f - a2) + a2) +
                              n_v * sqrt(n_l * n_l * (1.0f - a2) + a2), 1.0e-7f);
-    float k = 1.0f - l_h;
-    float k2 = k * k;
-    vec3 fresnel = mix(pbr_f0(s), vec3(1.0f), k2 * k2 * k);
-    vec3 diffuse = s.base_color * ((1.0f - s.metallic) * kInvPi);
-    return ((vec3(1.0f) - fresnel) * diffuse + fresnel * (d * g)) * n_l;
+    vec3 f0 = pbr_f0(s);
+    vec3 fresnel = mix(f0, vec3(1.0f), pbr_fifth_power(1.0f - l_h));
+    vec3 into = vec3(1.0f) - mix(f0, vec3(1.0f), pbr_fifth_power(1.0f - n_l));
+    vec3 out_of = vec3(1.0f) - mix(f0, vec3(1.0f), pbr_fifth_power(1.0f - min(n_v, 1.0f)));
+    vec3 diffuse = into * out_of * s.base_color * ((1.0f - s.metallic) * kInvPi);
+    return (diffuse + fresnel * (d * g)) * n_l;
 }
 
 /// Radiance to the eye under an environment: `sh_normal` and `sh_reflected` are irradiance/π towards the
@@ -38,8 +46,9 @@ VELLUS_FN vec3 pbr_environment(PbrSurface s, float n_dot_v, vec3 sh_normal, vec3
     float n_v = saturate(n_dot_v);
     vec4 r = s.roughness * vec4(-1.0f, -0.0275f, -0.572f, 0.022f) + vec4(1.0f, 0.0425f, 1.04f, -0.04f);
     float a = min(r.x * r.x, exp2(-9.28f * n_v)) * r.x + r.y;
-    vec3 specular = pbr_f0(s) * (r.z - 1.04f * a) + vec3(max(1.04f * a + r.w, 0.0f));
-    return s.base_color * (1.0f - s.metallic) * sh_normal + max(specular, vec3(0.0f)) * sh_reflected;
+    vec3 specular = clamp(pbr_f0(s) * (r.z - 1.04f * a) + vec3(1.04f * a + r.w), vec3(0.0f), vec3(1.0f));
+    vec3 diffuse = (vec3(1.0f) - specular) * s.base_color * (1.0f - s.metallic);
+    return diffuse * sh_normal + specular * sh_reflected;
 }
 
 #endif
