@@ -6,8 +6,9 @@
 namespace vellus::graph {
 
 /// What a pass sees while it records: its command buffer and the resources it declared. Asking for
-/// anything else is an error (undeclared access) that ends the frame, and returns null.
-/// A raster pass is called inside its rendering, viewport and scissor set to the whole attachment.
+/// anything else gives a placeholder and an error (undeclared access), and the frame is not
+/// submitted. A raster pass is called inside its rendering, viewport and scissor set to the whole
+/// attachment.
 class PassContext {
   public:
     virtual ~PassContext() = default;

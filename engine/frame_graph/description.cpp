@@ -68,6 +68,15 @@ ImageHandle GraphDescription::import_image(std::string_view name, const ImageDes
     return image;
 }
 
+ImageHandle GraphDescription::import_native_image(std::string_view name, const ImageDesc& desc,
+                                                  uint64_t image, uint64_t view, Access before,
+                                                  Access after, Where where) {
+    const ImageHandle handle = import_image(name, desc, nullptr, before, after, where);
+    resources_[handle.index].native_image = image;
+    resources_[handle.index].native_view = view;
+    return handle;
+}
+
 BufferHandle GraphDescription::import_buffer(std::string_view name, const BufferDesc& desc,
                                              void* external, Access before, Access after,
                                              Where where) {

@@ -73,6 +73,11 @@ class GraphDescription {
     /// did).
     ImageHandle import_image(std::string_view name, const ImageDesc& desc, void* external,
                              Access before, Access after = Access::kNone, Where = Where::current());
+    /// The same for an image that is not a gpu::Image, such as one of a swapchain; VkImage and
+    /// VkImageView of all of it, usable as color attachment and transfer destination.
+    ImageHandle import_native_image(std::string_view name, const ImageDesc& desc, uint64_t image,
+                                    uint64_t view, Access before, Access after,
+                                    Where = Where::current());
     BufferHandle import_buffer(std::string_view name, const BufferDesc& desc, void* external,
                                Access before, Access after = Access::kNone,
                                Where = Where::current());

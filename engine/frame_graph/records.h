@@ -26,7 +26,9 @@ struct ResourceRecord {
     uint32_t last_version = kNoIndex;
     ImageDesc image{};
     BufferDesc buffer{};
-    void* external = nullptr;
+    void* external = nullptr;   ///< gpu::Image* or gpu::Buffer*
+    uint64_t native_image = 0;  ///< VkImage, where there is no gpu::Image
+    uint64_t native_view = 0;
     std::source_location where{};
 };
 
