@@ -1,14 +1,15 @@
 #include "engine/gpu/device.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cctype>
 #include <cstring>
 #include <optional>
 
 #include "engine/gpu/features.h"
 #include "engine/gpu/memory.h"
+#include "engine/gpu/pipeline_cache.h"
 #include "engine/gpu/pipeline_library.h"
-#include "engine/platform/files.h"
 #include "engine/platform/log.h"
 
 namespace vellus::gpu {
@@ -124,7 +125,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
     if (auto made = device->create_instance(options); !made) return made.error();
     if (auto picked = device->pick_physical(options); !picked) return picked.error();
     if (auto made = device->create_logical(options); !made) return made.error();
-    device->load_pipeline_cache(options.pipeline_cache_path);
+    device->open_pipeline_cache(options.pipeline_cache_folder);
     device->memory_ = std::make_unique<MemoryAllocator>(device->device_, device->physical_);
     device->pipelines_ = std::make_unique<PipelineLibrary>(*device);
     return device;
@@ -192,10 +193,21 @@ Result<void> Device::create_instance(const DeviceOptions& options) {
             .pUserData = this};
         vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_);
     }
-    if (options.create_surface) {
-        const VkResult result = options.create_surface(instance_, &surface_);
-        if (result != VK_SUCCESS) return vulkan_error(result, "window surface");
-    }
+    create_surface_ = options.create_surface;
+    if (!create_surface_) return {};
+    const VkResult result = create_surface_(instance_, &surface_);
+    return result == VK_SUCCESS ? Result<void>() : vulkan_error(result, "window surface");
+}
+
+Result<void> Device::recreate_surface() {
+    assert(create_surface_);
+    vkDestroySurfaceKHR(instance_, surface_, nullptr);
+    surface_ = VK_NULL_HANDLE;
+    const VkResult result = create_surface_(instance_, &surface_);
+    if (result != VK_SUCCESS) return vulkan_error(result, "window surface");
+    VkBool32 can_present = VK_FALSE;
+    vkGetPhysicalDeviceSurfaceSupportKHR(physical_, queue_family_, surface_, &can_present);
+    if (!can_present) return vulkan_error(VK_ERROR_SURFACE_LOST_KHR, "window surface");
     return {};
 }
 
@@ -259,32 +271,32 @@ Result<void> Device::create_logical(const DeviceOptions&) {
     return {};
 }
 
-void Device::load_pipeline_cache(const std::string& path) {
-    pipeline_cache_path_ = path;
-    std::vector<std::byte> bytes;
-    if (!path.empty() && std::filesystem::exists(path)) {
-        if (auto read = read_file(path)) bytes = std::move(*read);
+void Device::open_pipeline_cache(const std::filesystem::path& folder) {
+    if (!folder.empty()) {
+        pipeline_cache_path_ = pipeline_cache_file(folder, physical_);
+        loaded_cache_ = load_pipeline_cache(pipeline_cache_path_);
     }
-    // Vulkan refuses data of another driver by its header; a damaged body is the driver's to
-    // reject.
     const VkPipelineCacheCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
-                                         .initialDataSize = bytes.size(),
-                                         .pInitialData = bytes.data()};
+                                         .initialDataSize = loaded_cache_.size(),
+                                         .pInitialData = loaded_cache_.data()};
     if (vkCreatePipelineCache(device_, &info, nullptr, &pipeline_cache_) != VK_SUCCESS) {
         pipeline_cache_ = VK_NULL_HANDLE;
     }
 }
 
-void Device::save_pipeline_cache() const {
-    if (pipeline_cache_path_.empty() || !pipeline_cache_) return;
-    size_t size = 0;
-    vkGetPipelineCacheData(device_, pipeline_cache_, &size, nullptr);
-    std::vector<std::byte> bytes(size);
-    vkGetPipelineCacheData(device_, pipeline_cache_, &size, bytes.data());
-    if (auto written = write_file(pipeline_cache_path_, std::span<const std::byte>(bytes));
-        !written) {
-        log_warning("pipeline cache not kept: {}", written.error().message());
+void Device::close_pipeline_cache() {
+    if (!pipeline_cache_path_.empty() && pipeline_cache_) {
+        size_t size = 0;
+        vkGetPipelineCacheData(device_, pipeline_cache_, &size, nullptr);
+        std::vector<std::byte> bytes(size);
+        vkGetPipelineCacheData(device_, pipeline_cache_, &size, bytes.data());
+        bytes.resize(size);
+        const bool changed = bytes != loaded_cache_;
+        const auto kept =
+            changed ? save_pipeline_cache(pipeline_cache_path_, bytes) : Result<void>();
+        if (!kept) log_warning("pipeline cache not kept: {}", kept.error().message());
     }
+    vkDestroyPipelineCache(device_, pipeline_cache_, nullptr);
 }
 
 Device::~Device() {
@@ -292,8 +304,7 @@ Device::~Device() {
         vkDeviceWaitIdle(device_);
         pipelines_.reset();
         memory_.reset();
-        save_pipeline_cache();
-        vkDestroyPipelineCache(device_, pipeline_cache_, nullptr);
+        close_pipeline_cache();
         vkDestroyCommandPool(device_, one_shot_pool_, nullptr);
         vkDestroyDevice(device_, nullptr);
     }

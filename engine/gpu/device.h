@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>
@@ -19,8 +20,8 @@ struct DeviceOptions {
     std::string name;
     /// Validation and synchronization validation; every message is logged and counted.
     bool validation = false;
-    /// Pipeline cache file; empty keeps none.
-    std::string pipeline_cache_path;
+    /// Folder of the pipeline cache, one file per device and driver; empty keeps none.
+    std::filesystem::path pipeline_cache_folder;
     /// Extensions that the window system asks for; empty means headless.
     std::vector<const char*> instance_extensions;
     /// Makes the surface that presentation must support; unset means headless.
@@ -56,10 +57,14 @@ class Device {
     [[nodiscard]] VkQueue queue() const { return queue_; }
     [[nodiscard]] uint32_t queue_family() const { return queue_family_; }
     [[nodiscard]] VkSurfaceKHR surface() const { return surface_; }
+    /// After VK_ERROR_SURFACE_LOST_KHR: a new surface in place of the old; no swapchain may use it.
+    Result<void> recreate_surface();
     [[nodiscard]] const DeviceTraits& traits() const { return traits_; }
     [[nodiscard]] MemoryAllocator& memory() { return *memory_; }
     [[nodiscard]] PipelineLibrary& pipelines() { return *pipelines_; }
     [[nodiscard]] VkPipelineCache pipeline_cache() const { return pipeline_cache_; }
+    /// Bytes of pipelines found on disk from earlier runs.
+    [[nodiscard]] size_t pipeline_cache_loaded() const { return loaded_cache_.size(); }
     /// Number of validation messages so far; stays 0 in a correct program.
     [[nodiscard]] uint32_t validation_messages() const { return validation_messages_; }
 
@@ -75,8 +80,8 @@ class Device {
     Result<void> create_instance(const DeviceOptions& options);
     Result<void> pick_physical(const DeviceOptions& options);
     Result<void> create_logical(const DeviceOptions& options);
-    void load_pipeline_cache(const std::string& path);
-    void save_pipeline_cache() const;
+    void open_pipeline_cache(const std::filesystem::path& folder);
+    void close_pipeline_cache();
     static VKAPI_ATTR VkBool32 VKAPI_CALL on_message(
         VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT type,
         const VkDebugUtilsMessengerCallbackDataEXT* data, void* user);
@@ -84,13 +89,15 @@ class Device {
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     VkSurfaceKHR surface_ = VK_NULL_HANDLE;
+    std::function<VkResult(VkInstance, VkSurfaceKHR*)> create_surface_;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     uint32_t queue_family_ = 0;
     VkCommandPool one_shot_pool_ = VK_NULL_HANDLE;
     VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;
-    std::string pipeline_cache_path_;
+    std::filesystem::path pipeline_cache_path_;
+    std::vector<std::byte> loaded_cache_;
     DeviceTraits traits_;
     bool has_debug_utils_ = false;
     std::atomic<uint32_t> validation_messages_ = 0;

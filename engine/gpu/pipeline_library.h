@@ -71,6 +71,8 @@ class PipelineLibrary {
     /// shader that no longer compiles keeps its old pipeline and is reported. Returns how many were
     /// rebuilt.
     Result<size_t> reload_changed();
+    /// Where reload_changed looks for sources; shaders/ of the source tree unless told.
+    void set_source_folder(std::filesystem::path folder);
 
   private:
     struct Layouts {
@@ -92,6 +94,7 @@ class PipelineLibrary {
     Table<RasterInfo> raster_;
     /// SPIR-V that replaced the embedded words, by shader path.
     std::map<std::string, std::vector<uint32_t>> reloaded_;
+    std::filesystem::path source_folder_;
     std::filesystem::file_time_type newest_source_;
     size_t created_ = 0;
 };

@@ -15,6 +15,11 @@ extern char** environ;
 
 namespace vellus::gpu {
 
+void PipelineLibrary::set_source_folder(std::filesystem::path folder) {
+    source_folder_ = std::move(folder);
+    newest_source_ = {};
+}
+
 #ifdef NDEBUG
 
 Result<size_t> PipelineLibrary::reload_changed() {
@@ -37,11 +42,11 @@ fs::file_time_type newest_below(const fs::path& folder) {
 }
 
 /// Runs glslangValidator as the build does; its messages go to stderr, where the author looks.
-Result<std::vector<uint32_t>> compile_shader(const std::string& path) {
-    const std::string source = (fs::path(VELLUS_SHADER_DIR) / path).string();
+Result<std::vector<uint32_t>> compile_shader(const fs::path& folder, const std::string& path) {
+    const std::string source = (folder / path).string();
     const std::string output =
         (fs::temp_directory_path() / fmt::format("vellus_reload_{}.spv", ::getpid())).string();
-    const std::string include = std::string("-I") + VELLUS_SHADER_DIR;
+    const std::string include = "-I" + folder.string();
     const std::string stem = path.substr(0, path.rfind('.'));
     const std::string stage = stem.substr(stem.rfind('.') + 1);
     const char* arguments[] = {VELLUS_GLSLANG, "--target-env", "vulkan1.3",    "--quiet",
@@ -65,7 +70,8 @@ Result<std::vector<uint32_t>> compile_shader(const std::string& path) {
 }  // namespace
 
 Result<size_t> PipelineLibrary::reload_changed() {
-    const auto newest = newest_below(VELLUS_SHADER_DIR);
+    if (source_folder_.empty()) source_folder_ = VELLUS_SHADER_DIR;
+    const auto newest = newest_below(source_folder_);
     const bool first_look = newest_source_ == fs::file_time_type{};
     if (newest <= newest_source_ && !first_look) return size_t{0};
     newest_source_ = newest;
@@ -79,7 +85,7 @@ Result<size_t> PipelineLibrary::reload_changed() {
         if (!info.fragment_shader.empty()) paths.insert(info.fragment_shader);
     }
     for (const std::string& path : paths) {
-        auto words = compile_shader(path);
+        auto words = compile_shader(source_folder_, path);
         if (!words) {
             log_error("{}", words.error().message());
             return words.error();
