@@ -28,6 +28,7 @@ struct ResourceState {
     SyncState whole;
     uint32_t split = kNoIndex;  ///< into sub_states, layer-major, once ranges differ
     MemoryBlock block;
+    bool transient = false;
     bool aliased = false;  ///< the first barrier still has to wait for the memory's former owners
 };
 
@@ -53,6 +54,7 @@ struct CompileState {
     std::vector<uint32_t> live_next;  // per version: the live pass that overwrites it
     std::vector<uint32_t>
         live_writer;              // per version: the live pass that wrote it, or the last before
+    bool all_live = false;        // no pass is culled: live_next and live_writer are not filled
     std::vector<uint32_t> stack;  // passes to visit
     std::vector<uint32_t> order;  // live passes, in execution order
     std::vector<uint32_t> edge_first, edge_to, edge_count, edge_next;
@@ -61,6 +63,17 @@ struct CompileState {
     std::vector<SyncState> sub_states;
     std::vector<uint32_t> externals;  // resources that are not transient
     std::vector<MemoryMap> maps;      // per pool; more than in use are kept for their memory
+
+    /// The live pass that overwrites this version, or kNoIndex.
+    [[nodiscard]] uint32_t next_writer(uint32_t version) const {
+        if (!all_live) return live_next[version];
+        const uint32_t next = graph->versions()[version].next;
+        return next == kNoIndex ? kNoIndex : graph->versions()[next].writer;
+    }
+    /// The live pass that wrote this version or, where that is culled, the last one before.
+    [[nodiscard]] uint32_t last_writer(uint32_t version) const {
+        return all_live ? graph->versions()[version].writer : live_writer[version];
+    }
 
     void report(Problem problem, uint32_t pass, uint32_t resource, std::source_location where,
                 uint32_t other = kNoIndex) const {

@@ -4,11 +4,6 @@ namespace vellus::graph {
 
 namespace {
 
-bool covers(const ImageRange& range, const ResourceRecord& resource) {
-    return resource.kind == ResourceKind::kBuffer ||
-           (range.mips == resource.image.mips && range.layers == resource.image.layers);
-}
-
 void want(CompileState& s, uint32_t version) {
     s.needed[version] = 1;
     const uint32_t writer = s.graph->versions()[version].writer;
@@ -29,12 +24,11 @@ void want_history(CompileState& s, const AccessRecord& access, const ResourceRec
 
 void visit(CompileState& s, uint32_t pass) {
     for (const AccessRecord& access : s.graph->accesses(pass)) {
-        const ResourceRecord& resource = s.graph->resources()[access.resource];
         if (!access.write) {
             want(s, access.version);
+            const ResourceRecord& resource = s.graph->resources()[access.resource];
             if (resource.origin == Origin::kHistoryPrevious) want_history(s, access, resource);
-        } else if (access.load == Load::kKeep || info(access.access).reads ||
-                   !covers(access.range, resource)) {
+        } else if (access.load == Load::kKeep || info(access.access).reads || !access.whole) {
             want(s, s.graph->versions()[access.version].previous);
         }
     }
@@ -88,9 +82,12 @@ bool cull(CompileState& s) {
         s.stack.pop_back();
         visit(s, pass);
     }
-    link_live_writers(s);
+    size_t live = 0;
+    for (const uint8_t alive : s.plan->alive) live += alive;
+    s.all_live = live == passes.size();
+    if (!s.all_live) link_live_writers(s);
     for (const OutputRecord& output : s.graph->outputs()) {
-        const uint32_t overwriter = s.live_next[output.version];
+        const uint32_t overwriter = s.next_writer(output.version);
         if (overwriter == kNoIndex) continue;
         s.report(Problem::kOutputOverwritten, kNoIndex,
                  s.graph->versions()[output.version].resource, output.where, overwriter);

@@ -9,51 +9,53 @@ namespace vellus::graph {
 
 namespace {
 
-ImageRange resolve(const ImageRange& range, const ImageDesc& desc) {
-    ImageRange out = range;
-    if (out.mips == ImageRange::kAll) out.mips = static_cast<uint16_t>(desc.mips - range.mip);
-    if (out.layers == ImageRange::kAll) {
-        out.layers = static_cast<uint16_t>(desc.layers - range.layer);
-    }
-    return out;
-}
-
-template <class H>
-H handle(uint32_t resource, uint32_t version, uint32_t generation) {
-    H out;
-    out.index = resource;
-    out.version = version;
-    out.generation = generation;
-    return out;
-}
+const LoadOp kKeepOp = keep();
 
 }  // namespace
 
-uint32_t GraphDescription::add_resource(ResourceRecord&& resource) {
-    const auto index = static_cast<uint32_t>(resources_.size());
+// Records are filled in where they lie: building them elsewhere and copying costs more than the
+// rest.
+
+ResourceRecord& GraphDescription::add_resource(std::string_view name, Where where) {
     const auto version = static_cast<uint32_t>(versions_.size());
-    resource.first_version = resource.last_version = version;
-    resources_.push_back(resource);
-    versions_.push_back({.resource = index});
-    return index;
+    versions_.emplace_back().resource = static_cast<uint32_t>(resources_.size());
+    ResourceRecord& resource = resources_.emplace_back();
+    resource.name = name;
+    resource.first_version = version;
+    resource.last_version = version;
+    resource.where = where;
+    return resource;
+}
+
+template <class H>
+H GraphDescription::first_handle(const ResourceRecord& resource) const {
+    H handle;
+    handle.index = static_cast<uint32_t>(&resource - resources_.data());
+    handle.version = resource.first_version;
+    handle.generation = generation_;
+    return handle;
 }
 
 ImageHandle GraphDescription::create_image(std::string_view name, const ImageDesc& desc,
                                            Where where) {
-    const uint32_t index = add_resource({.name = name, .image = desc, .where = where});
+    ResourceRecord& resource = add_resource(name, where);
+    resource.image = desc;
+    const auto handle = first_handle<ImageHandle>(resource);
     if (desc.format == gpu::Format::kUndefined || desc.width == 0 || desc.height == 0 ||
         desc.layers == 0 || desc.mips == 0) {
-        report(Problem::kUnsupportedFormat, kNoIndex, index, where);
+        report(Problem::kUnsupportedFormat, kNoIndex, handle.index, where);
     }
-    return handle<ImageHandle>(index, resources_[index].first_version, generation_);
+    return handle;
 }
 
 BufferHandle GraphDescription::create_buffer(std::string_view name, const BufferDesc& desc,
                                              Where where) {
-    const uint32_t index =
-        add_resource({.name = name, .kind = ResourceKind::kBuffer, .buffer = desc, .where = where});
-    if (desc.bytes == 0) report(Problem::kUnsupportedFormat, kNoIndex, index, where);
-    return handle<BufferHandle>(index, resources_[index].first_version, generation_);
+    ResourceRecord& resource = add_resource(name, where);
+    resource.kind = ResourceKind::kBuffer;
+    resource.buffer = desc;
+    const auto handle = first_handle<BufferHandle>(resource);
+    if (desc.bytes == 0) report(Problem::kUnsupportedFormat, kNoIndex, handle.index, where);
+    return handle;
 }
 
 ImageHandle GraphDescription::import_image(std::string_view name, const ImageDesc& desc,
@@ -105,10 +107,11 @@ History GraphDescription::history(std::string_view name, const ImageDesc& desc, 
 
 PassBuilder GraphDescription::add_pass(std::string_view name, PassKind kind, Where where) {
     const auto index = static_cast<uint32_t>(passes_.size());
-    passes_.push_back({.name = name,
-                       .kind = kind,
-                       .first_access = static_cast<uint32_t>(accesses_.size()),
-                       .where = where});
+    PassRecord& pass = passes_.emplace_back();
+    pass.name = name;
+    pass.kind = kind;
+    pass.first_access = static_cast<uint32_t>(accesses_.size());
+    pass.where = where;
     return {this, index};
 }
 
@@ -144,39 +147,30 @@ void GraphDescription::report(Problem problem, uint32_t pass, uint32_t resource,
     problems_.push_back({problem, pass, resource, other, where});
 }
 
-bool GraphDescription::check(Handle handle, uint32_t pass, Where where) {
-    if (handle.generation == generation_ && handle.version < versions_.size() &&
-        versions_[handle.version].resource == handle.index) {
-        return true;
-    }
-    report(Problem::kStaleHandle, pass, kNoIndex, where);
-    return false;
-}
-
-void GraphDescription::insert(AccessRecord&& access) {
-    PassRecord& pass = passes_[access.pass];
-    const size_t at = pass.first_access + pass.access_count++;
-    if (at == accesses_.size()) {
-        accesses_.push_back(access);
-        return;
-    }
+AccessRecord& GraphDescription::add_access(uint32_t pass) {
+    PassRecord& record = passes_[pass];
+    const size_t at = record.first_access + record.access_count++;
+    if (at == accesses_.size()) return accesses_.emplace_back();
     // A pass declared further after others were added: they move up. Rare, and then short.
-    accesses_.insert(accesses_.begin() + static_cast<ptrdiff_t>(at), access);
-    for (size_t i = access.pass + 1; i < passes_.size(); ++i) ++passes_[i].first_access;
+    accesses_.emplace(accesses_.begin() + static_cast<ptrdiff_t>(at));
+    for (size_t i = pass + 1; i < passes_.size(); ++i) ++passes_[i].first_access;
+    return accesses_[at];
 }
 
-uint32_t GraphDescription::touch(uint32_t pass, Handle handle, Access access, bool write,
-                                 ImageRange range, LoadOp load, Where where) {
+uint32_t GraphDescription::touch(uint32_t pass, const Handle& handle, Access access, bool write,
+                                 const ImageRange& range, const LoadOp& load, Where where) {
     if (!check(handle, pass, where)) return handle.version;
     ResourceRecord& resource = resources_[handle.index];
     const AccessInfo& how = info(access);
-    const VersionRecord before = versions_[handle.version];
-    const bool undefined = before.writer == kNoIndex && resource.before == Access::kNone &&
-                           resource.origin != Origin::kHistoryPrevious;
-    const bool loads_attachment = load.op == Load::kKeep && (access == Access::kColorAttachment ||
-                                                             access == Access::kDepthAttachment);
-    if (undefined && (how.reads || !write || loads_attachment)) {
-        report(Problem::kReadNeverWritten, pass, handle.index, where);
+    const VersionRecord& before = versions_[handle.version];
+    if (before.writer == kNoIndex && resource.before == Access::kNone &&
+        resource.origin != Origin::kHistoryPrevious) {
+        const bool loads_attachment =
+            load.op == Load::kKeep &&
+            (access == Access::kColorAttachment || access == Access::kDepthAttachment);
+        if (how.reads || !write || loads_attachment) {
+            report(Problem::kReadNeverWritten, pass, handle.index, where);
+        }
     }
     if (write != how.writes) report(Problem::kUnsupportedUsage, pass, handle.index, where);
 
@@ -185,41 +179,54 @@ uint32_t GraphDescription::touch(uint32_t pass, Handle handle, Access access, bo
         if (before.next != kNoIndex) {
             report(Problem::kTwoWriters, pass, handle.index, where, versions_[before.next].writer);
         }
+        const uint32_t number = before.number + 1;
         version = static_cast<uint32_t>(versions_.size());
-        versions_.push_back({.resource = handle.index,
-                             .writer = pass,
-                             .previous = handle.version,
-                             .number = before.number + 1});
         versions_[handle.version].next = version;
+        VersionRecord& made = versions_.emplace_back();
+        made.resource = handle.index;
+        made.writer = pass;
+        made.previous = handle.version;
+        made.number = number;
         resource.last_version = version;
     }
-    uint32_t clear = kNoIndex;
+    AccessRecord& record = add_access(pass);
+    record.pass = pass;
+    record.resource = handle.index;
+    record.version = version;
+    record.access = access;
+    record.write = write;
+    record.load = load.op;
+    record.where = where;
     if (load.op == Load::kClear) {
-        clear = static_cast<uint32_t>(clears_.size());
+        record.clear = static_cast<uint32_t>(clears_.size());
         clears_.push_back(load);
     }
-    const bool image = resource.kind == ResourceKind::kImage;
-    insert({.pass = pass,
-            .resource = handle.index,
-            .version = version,
-            .clear = clear,
-            .range = image ? resolve(range, resource.image) : ImageRange{0, 1, 0, 1},
-            .access = access,
-            .write = write,
-            .load = load.op,
-            .where = where});
+    record.image = resource.kind == ResourceKind::kImage;
+    if (!record.image) {
+        record.range = {0, 1, 0, 1};
+        return version;
+    }
+    const ImageDesc& desc = resource.image;
+    const auto rest = [](uint16_t count, uint32_t all, uint16_t first) {
+        return count == ImageRange::kAll ? static_cast<uint16_t>(all - first) : count;
+    };
+    record.range.mip = range.mip;
+    record.range.mips = rest(range.mips, desc.mips, range.mip);
+    record.range.layer = range.layer;
+    record.range.layers = rest(range.layers, desc.layers, range.layer);
+    record.whole = record.range.mips == desc.mips && record.range.layers == desc.layers;
     return version;
 }
 
-void PassBuilder::read(ImageHandle image, Access access, ImageRange range, Where where) {
-    graph_->touch(pass_, image, access, false, range, {}, where);
+void PassBuilder::read(ImageHandle image, Access access, const ImageRange& range, Where where) {
+    graph_->touch(pass_, image, access, false, range, kKeepOp, where);
 }
 
 void PassBuilder::read(BufferHandle buffer, Access access, Where where) {
-    graph_->touch(pass_, buffer, access, false, {}, {}, where);
+    graph_->touch(pass_, buffer, access, false, {}, kKeepOp, where);
 }
 
-ImageHandle PassBuilder::write(ImageHandle image, Access access, ImageRange range, Load load,
+ImageHandle PassBuilder::write(ImageHandle image, Access access, const ImageRange& range, Load load,
                                Where where) {
     image.version = graph_->touch(pass_, image, access, true, range, {load, {}}, where);
     return image;
@@ -230,12 +237,14 @@ BufferHandle PassBuilder::write(BufferHandle buffer, Access access, Load load, W
     return buffer;
 }
 
-ImageHandle PassBuilder::color(ImageHandle image, LoadOp load, ImageRange range, Where where) {
+ImageHandle PassBuilder::color(ImageHandle image, const LoadOp& load, const ImageRange& range,
+                               Where where) {
     image.version = graph_->touch(pass_, image, Access::kColorAttachment, true, range, load, where);
     return image;
 }
 
-ImageHandle PassBuilder::depth(ImageHandle image, LoadOp load, ImageRange range, Where where) {
+ImageHandle PassBuilder::depth(ImageHandle image, const LoadOp& load, const ImageRange& range,
+                               Where where) {
     image.version = graph_->touch(pass_, image, Access::kDepthAttachment, true, range, load, where);
     return image;
 }

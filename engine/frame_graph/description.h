@@ -24,21 +24,22 @@ class PassBuilder {
     using Where = std::source_location;
 
     /// The pass reads this version.
-    void read(ImageHandle image, Access access, ImageRange range = {}, Where = Where::current());
+    void read(ImageHandle image, Access access, const ImageRange& range = {},
+              Where = Where::current());
     void read(BufferHandle buffer, Access access, Where = Where::current());
 
     /// The pass writes the resource after this version; returns the version it produces.
-    [[nodiscard]] ImageHandle write(ImageHandle image, Access access, ImageRange range = {},
+    [[nodiscard]] ImageHandle write(ImageHandle image, Access access, const ImageRange& range = {},
                                     Load load = Load::kKeep, Where = Where::current());
     [[nodiscard]] BufferHandle write(BufferHandle buffer, Access access, Load load = Load::kKeep,
                                      Where = Where::current());
 
     /// The next color attachment (location = order of the calls), one mip of one or all layers.
-    [[nodiscard]] ImageHandle color(ImageHandle image, LoadOp load = {}, ImageRange range = {},
-                                    Where = Where::current());
+    [[nodiscard]] ImageHandle color(ImageHandle image, const LoadOp& load = {},
+                                    const ImageRange& range = {}, Where = Where::current());
     /// The depth attachment, tested and written. For a test only: read(h, Access::kDepthReadOnly).
-    [[nodiscard]] ImageHandle depth(ImageHandle image, LoadOp load = {}, ImageRange range = {},
-                                    Where = Where::current());
+    [[nodiscard]] ImageHandle depth(ImageHandle image, const LoadOp& load = {},
+                                    const ImageRange& range = {}, Where = Where::current());
 
     /// Never culled: the pass does something the graph does not see.
     void side_effect();
@@ -117,11 +118,20 @@ class GraphDescription {
   private:
     friend class PassBuilder;
 
-    uint32_t add_resource(ResourceRecord&& resource);
-    uint32_t touch(uint32_t pass, Handle handle, Access access, bool write, ImageRange range,
-                   LoadOp load, Where where);
-    void insert(AccessRecord&& access);
-    bool check(Handle handle, uint32_t pass, Where where);
+    ResourceRecord& add_resource(std::string_view name, Where where);
+    template <class H>
+    H first_handle(const ResourceRecord& resource) const;
+    uint32_t touch(uint32_t pass, const Handle& handle, Access access, bool write,
+                   const ImageRange& range, const LoadOp& load, Where where);
+    AccessRecord& add_access(uint32_t pass);
+    bool check(Handle handle, uint32_t pass, Where where) {
+        if (handle.generation == generation_ && handle.version < versions_.size() &&
+            versions_[handle.version].resource == handle.index) {
+            return true;
+        }
+        report(Problem::kStaleHandle, pass, kNoIndex, where);
+        return false;
+    }
     void report(Problem problem, uint32_t pass, uint32_t resource, Where where,
                 uint32_t other = kNoIndex);
 

@@ -5,15 +5,13 @@
 namespace vellus::graph {
 
 void find_lifetimes(CompileState& s) {
-    const auto resources = s.graph->resources();
-    s.plan->placements.assign(resources.size(), {});
+    s.plan->placements.assign(s.graph->resources().size(), {});
     s.readers.assign(s.graph->versions().size(), {});
     for (uint32_t position = 0; position < s.order.size(); ++position) {
         for (const AccessRecord& access : s.graph->accesses(s.order[position])) {
             const AccessInfo& how = info(access.access);
             Placement& placement = s.plan->placements[access.resource];
-            const bool image = resources[access.resource].kind == ResourceKind::kImage;
-            placement.usage |= image ? how.image_usage : how.buffer_usage;
+            placement.usage |= access.image ? how.image_usage : how.buffer_usage;
             if (placement.first_step == kNoIndex) placement.first_step = position;
             placement.last_step = position;
             if (access.write) continue;

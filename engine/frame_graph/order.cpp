@@ -15,9 +15,9 @@ void for_each_edge(const CompileState& s, const F& edge) {
         for (const AccessRecord& access : s.graph->accesses(pass)) {
             const uint32_t source =
                 access.write ? versions[access.version].previous : access.version;
-            const uint32_t writer = s.live_writer[source];
+            const uint32_t writer = s.last_writer(source);
             if (writer != kNoIndex && writer != pass) edge(writer, pass, access);
-            const uint32_t overwriter = access.write ? kNoIndex : s.live_next[access.version];
+            const uint32_t overwriter = access.write ? kNoIndex : s.next_writer(access.version);
             if (overwriter != kNoIndex && overwriter != pass) edge(pass, overwriter, access);
         }
     }

@@ -61,6 +61,8 @@ struct AccessRecord {
     Access access = Access::kNone;
     bool write = false;
     Load load = Load::kKeep;
+    bool image = false;  ///< or buffer
+    bool whole = true;   ///< the range is all of the resource
     std::source_location where{};
 };
 

@@ -27,7 +27,8 @@ void begin(CompileState& s) {
     s.externals.clear();
     for (uint32_t i = 0; i < resources.size(); ++i) {
         const ResourceRecord& resource = resources[i];
-        if (resource.origin == Origin::kTransient) continue;
+        s.states[i].transient = resource.origin == Origin::kTransient;
+        if (s.states[i].transient) continue;
         s.externals.push_back(i);
         SyncState& state = s.states[i].whole;
         if (resource.origin == Origin::kHistoryPrevious) {
@@ -42,20 +43,21 @@ void begin(CompileState& s) {
 
 Use use_of(const CompileState& s, const AccessRecord& access, uint32_t step) {
     const AccessInfo& how = info(access.access);
-    const bool image = s.graph->resources()[access.resource].kind == ResourceKind::kImage;
     Use use{.resource = access.resource,
             .range = access.range,
             .stages = how.stages,
             .access = how.access,
             .dst_stages = how.stages,
             .dst_access = how.access,
-            .layout = image ? how.layout : VK_IMAGE_LAYOUT_UNDEFINED,
+            .layout = access.image ? how.layout : VK_IMAGE_LAYOUT_UNDEFINED,
             .step = step,
+            .image = access.image,
+            .whole = access.whole,
             .write = access.write,
             .defines = access.write};
     if (!access.write) {
         const Readers& readers = s.readers[access.version];
-        if (!image || !readers.mixed_layouts) {
+        if (!access.image || !readers.mixed_layouts) {
             use.dst_stages = readers.stages;
             use.dst_access = readers.access;
         }
@@ -130,37 +132,39 @@ void poison(CompileState& s, uint32_t resource) {
                       .range = {0, static_cast<uint16_t>(image ? record.image.mips : 1), 0,
                                 static_cast<uint16_t>(image ? record.image.layers : 1)},
                       .access = Access::kTransferWrite,
-                      .write = true};
+                      .write = true,
+                      .image = image};
     Use use = use_of(s, fill, index);
     use.defines = false;
     synchronize(s, use, s.plan->barriers);
     end_step(s, step);
 }
 
-void make_room(CompileState& s, uint32_t pass) {
+/// Memory for a transient resource where it is used first.
+void make_room(CompileState& s, const AccessRecord& access, uint32_t step) {
+    Placement& placement = s.plan->placements[access.resource];
+    if (placement.pool != kNoIndex || !s.states[access.resource].transient) return;
+    place(s, access.resource);
+    placement.first_step = step;
+}
+
+/// The switch: what takes over memory is filled with a pattern first, in a step of its own.
+void poison_new(CompileState& s, uint32_t pass) {
     for (const AccessRecord& access : s.graph->accesses(pass)) {
-        if (s.graph->resources()[access.resource].origin != Origin::kTransient ||
-            s.plan->placements[access.resource].pool != kNoIndex) {
-            continue;
-        }
-        place(s, access.resource);
-        s.plan->placements[access.resource].first_step =
-            static_cast<uint32_t>(s.plan->steps.size());
-        if (s.options->switches.poison) poison(s, access.resource);
+        const Placement& placement = s.plan->placements[access.resource];
+        const bool placed = placement.pool != kNoIndex;
+        make_room(s, access, static_cast<uint32_t>(s.plan->steps.size()));
+        if (!placed && placement.pool != kNoIndex) poison(s, access.resource);
     }
 }
 
-void give_back(CompileState& s, uint32_t pass, uint32_t position, uint32_t step) {
-    for (const AccessRecord& access : s.graph->accesses(pass)) {
-        Placement& placement = s.plan->placements[access.resource];
-        ResourceState& state = s.states[access.resource];
-        if (placement.last_step != position || placement.pool == kNoIndex ||
-            state.block.node == kNoIndex) {
-            continue;
-        }
-        release(s, access.resource);
+void give_back(CompileState& s, uint32_t step) {
+    for (const uint32_t resource : s.stack) {
+        ResourceState& state = s.states[resource];
+        if (state.block.node == kNoIndex) continue;  // listed twice
+        release(s, resource);
         state.block.node = kNoIndex;
-        placement.last_step = step;
+        s.plan->placements[resource].last_step = step;
     }
 }
 
@@ -175,17 +179,23 @@ bool has_content(const CompileState& s, const AccessRecord& access, bool defined
 
 bool schedule_pass(CompileState& s, uint32_t position) {
     const uint32_t pass = s.order[position];
-    make_room(s, pass);
+    if (s.options->switches.poison) poison_new(s, pass);
     const auto index = static_cast<uint32_t>(s.plan->steps.size());
-    Step& step = begin_step(s, StepKind::kPass, pass);
+    s.stack.clear();  // resources used for the last time
     bool complete = true;
+    Step& step = begin_step(s, StepKind::kPass, pass);
     for (const AccessRecord& access : s.graph->accesses(pass)) {
+        make_room(s, access, index);
         const bool defined = synchronize(s, use_of(s, access, index), s.plan->barriers);
         complete = has_content(s, access, defined) && complete;
+        const Placement& placement = s.plan->placements[access.resource];
+        if (placement.last_step == position && placement.pool != kNoIndex) {
+            s.stack.push_back(access.resource);
+        }
     }
     if (s.graph->passes()[pass].kind == PassKind::kRaster) add_attachments(s, step);
     end_step(s, step);
-    give_back(s, pass, position, index);
+    give_back(s, index);
     return complete;
 }
 
@@ -211,7 +221,8 @@ bool hand_over(CompileState& s) {
                       .access = how.access,
                       .dst_stages = how.stages,
                       .dst_access = how.access,
-                      .layout = image ? how.layout : VK_IMAGE_LAYOUT_UNDEFINED};
+                      .layout = image ? how.layout : VK_IMAGE_LAYOUT_UNDEFINED,
+                      .image = image};
         if (synchronize(s, use, s.plan->epilogue) || !history) continue;
         s.report(Problem::kMissingHistory, kNoIndex, index, resource.where);
         complete = false;

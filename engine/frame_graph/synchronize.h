@@ -18,6 +18,8 @@ struct Use {
     uint32_t dst_access = 0;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< UNDEFINED for buffers
     uint32_t step = kNoIndex;
+    bool image = false;
+    bool whole = true;  ///< the range is all of the resource
     bool write = false;
     bool defines = false;  ///< afterwards the range has content
 };
