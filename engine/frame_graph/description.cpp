@@ -150,7 +150,7 @@ void GraphDescription::report(Problem problem, uint32_t pass, uint32_t resource,
 AccessRecord& GraphDescription::add_access(uint32_t pass) {
     PassRecord& record = passes_[pass];
     const size_t at = record.first_access + record.access_count++;
-    if (at == accesses_.size()) return accesses_.emplace_back();
+    if (pass + 1 == passes_.size()) return accesses_.emplace_back();
     // A pass declared further after others were added: they move up. Rare, and then short.
     accesses_.emplace(accesses_.begin() + static_cast<ptrdiff_t>(at));
     for (size_t i = pass + 1; i < passes_.size(); ++i) ++passes_[i].first_access;

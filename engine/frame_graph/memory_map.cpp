@@ -105,10 +105,10 @@ uint32_t MemoryMap::find(uint64_t bytes, uint64_t alignment) const {
 }
 
 uint32_t MemoryMap::grow(uint64_t bytes, uint64_t alignment) {
-    if (last_ != kNil && nodes_[last_].is_free) {  // the free end grows as far as needed
+    if (last_ != kNil && nodes_[last_].is_free) {  // the free end grows if it must
         unlink(last_);
         Node& end = nodes_[last_];
-        end.bytes = align(end.offset, alignment) + bytes - end.offset;
+        end.bytes = std::max(end.bytes, align(end.offset, alignment) + bytes - end.offset);
         return last_;
     }
     const uint64_t start = last_ == kNil ? 0 : nodes_[last_].offset + nodes_[last_].bytes;
@@ -178,7 +178,7 @@ uint32_t MemoryMap::merge_with_after(uint32_t node) {
 void MemoryMap::free(const MemoryBlock& block, const MemoryTag& tag) {
     uint32_t node = block.node;
     assert(node < nodes_.size() && !nodes_[node].is_free);
-    nodes_[node].tag = unite(nodes_[node].tag, tag);
+    nodes_[node].tag = tag;  // the last owner waited for those before it
     const uint32_t after = nodes_[node].after;
     if (after != kNil && nodes_[after].is_free) merge_with_after(node);
     const uint32_t before = nodes_[node].before;
