@@ -9,7 +9,7 @@
 struct PbrSurface {
     vec3 base_color;  // linear, [0, 1]
     float metallic;   // [0, 1]
-    float roughness;  // [0, 1], kept >= 0.045 so that float holds the lobe
+    float roughness;  // [0, 1], kept >= 0.089 for punctual lights, which have no size
 };
 
 VELLUS_FN vec3 pbr_f0(PbrSurface s) { return mix(vec3(0.04f), s.base_color, s.metallic); }
@@ -23,13 +23,16 @@ VELLUS_FN float pbr_fifth_power(float x) {
 VELLUS_FN vec3 pbr_direct(PbrSurface s, vec3 n, vec3 to_light, vec3 to_view) {
     float n_l = saturate(dot(n, to_light));
     float n_v = max(abs(dot(n, to_view)), 1.0e-4f);
-    float l_v = dot(to_light, to_view);
-    float inverse_h = inversesqrt(max(2.0f + 2.0f * l_v, 1.0e-7f));
-    float n_h = saturate((dot(n, to_light) + dot(n, to_view)) * inverse_h);
-    float l_h = saturate((1.0f + l_v) * inverse_h);
-    float alpha = square(max(s.roughness, 0.045f));
+    // The half vector's angle to n from a cross product: 1 - (n·h)² loses the whole lobe to rounding. The
+    // 1e-8 widens it where light and eye oppose each other and h has no direction.
+    vec3 sum = to_light + to_view;
+    vec3 off = cross(n, sum);
+    float sum2 = dot(sum, sum);
+    float sin2 = min((dot(off, off) + 1.0e-8f) / (sum2 + 1.0e-8f), 1.0f);
+    float l_h = min(0.5f * sqrt(sum2), 1.0f);
+    float alpha = square(max(s.roughness, 0.089f));
     float a2 = alpha * alpha;
-    float d = a2 * kInvPi / square(1.0f - n_h * n_h * (1.0f - a2));
+    float d = a2 * kInvPi / square(sin2 + a2 * (1.0f - sin2));
     float g = 0.5f / max(n_l * sqrt(n_v * n_v * (1.0f - a2) + a2) +
                              n_v * sqrt(n_l * n_l * (1.0f - a2) + a2), 1.0e-7f);
     vec3 f0 = pbr_f0(s);

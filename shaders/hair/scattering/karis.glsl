@@ -25,6 +25,7 @@ struct HairSurface {
 struct HairFrame {
     vec3 tangent;
     vec3 normal;  // fake normal: ω_r without its part along u; see hair_frame
+    float fade;   // 1 - |normal|²
     float sin_r;
     float cos_r;
 };
@@ -43,7 +44,9 @@ VELLUS_FN HairFrame hair_frame(vec3 tangent, vec3 to_view) {
     f.sin_r = clamp(dot(tangent, to_view), -1.0f, 1.0f);
     vec3 across = to_view - f.sin_r * tangent;
     float cos2 = dot(across, across);
-    f.normal = across * inversesqrt(cos2 + kHairDegenerate);
+    float scale = inversesqrt(cos2 + kHairDegenerate);
+    f.normal = across * scale;
+    f.fade = kHairDegenerate * scale * scale;
     f.cos_r = min(sqrt(cos2), 1.0f);
     return f;
 }
@@ -109,9 +112,14 @@ VELLUS_FN vec3 karis_bsdf(HairSurface s, HairFrame f, vec3 to_light) {
     vec3 across = to_light - sin_i * f.tangent;
     float cos2 = dot(across, across);
     float cos_i = min(sqrt(cos2), 1.0f);
-    float cos_phi =
-        clamp(dot(f.normal, across) * inversesqrt(cos2 + kHairDegenerate), -1.0f, 1.0f);
-    float cos_half_phi = sqrt(0.5f + 0.5f * cos_phi);
+    // cos² φ/2 by the chord of the two azimuths, exact near φ = π where R is narrow; where an azimuth has
+    // faded away φ tends to 90°.
+    float scale = inversesqrt(cos2 + kHairDegenerate);
+    vec3 chord = across * scale + f.normal;
+    float half_phi2 =
+        min(0.25f * (dot(chord, chord) + f.fade + kHairDegenerate * scale * scale), 1.0f);
+    float cos_half_phi = sqrt(half_phi2);
+    float cos_phi = 2.0f * half_phi2 - 1.0f;
     float sin_sum = sin_i + f.sin_r;
     // cos θd = cos ((θr - θi) / 2), by the chord of the two inclinations.
     float cos_d = min(0.5f * sqrt(square(cos_i + f.cos_r) + square(sin_sum)), 1.0f);
