@@ -53,4 +53,10 @@ void CommandBuffer::draw(uint32_t vertices, uint32_t instances, uint32_t first_v
     ++draws_;
 }
 
+void CommandBuffer::draw_indexed(VkBuffer buffer, uint32_t indices, uint32_t instances) {
+    vkCmdBindIndexBuffer(handle_, buffer, 0, VK_INDEX_TYPE_UINT32);
+    vkCmdDrawIndexed(handle_, indices, instances, 0, 0, 0);
+    ++draws_;
+}
+
 }  // namespace vellus::gpu

@@ -33,6 +33,8 @@ class CommandBuffer {
         dispatch((threads + group_size - 1) / group_size);
     }
     void draw(uint32_t vertices, uint32_t instances = 1, uint32_t first_vertex = 0);
+    /// Draws with 32-bit indices from the start of `buffer`.
+    void draw_indexed(VkBuffer buffer, uint32_t indices, uint32_t instances = 1);
 
   private:
     void push_bytes(const void* bytes, uint32_t size);
