@@ -14,7 +14,8 @@ constexpr const char* kGather = "gather";          ///< lights, instances: what 
 constexpr const char* kLighting = "lighting";      ///< passes: light block, empty shadow maps
 constexpr const char* kSkinning = "skinning";      ///< passes: vertices of animated meshes
 constexpr const char* kStrands = "strands";        ///< passes: points of hair on the screen
-constexpr const char* kShadows = "shadows";        ///< passes: shadow maps
+constexpr const char* kCasters = "casters";        ///< passes: opaque meshes into shadow maps
+constexpr const char* kShadows = "shadows";        ///< passes: hair into shadow maps
 constexpr const char* kOpaque = "opaque";          ///< passes: meshes
 constexpr const char* kSky = "sky";                ///< passes: the background
 constexpr const char* kHair = "hair";              ///< passes: hair into the picture
@@ -23,7 +24,7 @@ constexpr const char* kDisplay = "display";        ///< passes: tone map, output
 
 inline void order_stages(Schedule& schedule) {
     schedule.order({kSimulate, kTransforms, kView, kGather, kLighting, kSkinning, kStrands,
-                    kShadows, kOpaque, kSky, kHair, kTemporal, kDisplay});
+                    kCasters, kShadows, kOpaque, kSky, kHair, kTemporal, kDisplay});
 }
 
 }  // namespace vellus::scene

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/asset/scene_asset.h"
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/image.h"
+#include "engine/gpu/pipeline_library.h"
+#include "engine/platform/result.h"
+
+namespace vellus::scene {
+struct SceneLibrary;
+}
+
+namespace vellus::character {
+
+/// One triangle primitive on the device.
+struct MeshBuffers {
+    gpu::Buffer vertices;   ///< RestVertex
+    gpu::Buffer morphs;     ///< MorphDelta, target by target
+    gpu::Buffer texcoords;  ///< empty where there are none
+    gpu::Buffer colors;     ///< empty where there are none
+    gpu::Buffer indices;    ///< 32 bit
+    uint32_t vertex_count = 0;
+    uint32_t index_count = 0;
+    uint32_t target_count = 0;
+    bool has_joints = false;
+    uint32_t material = asset::kNone;
+
+    /// Weights are divided by their sum. Errors name the column that did not fit.
+    static Result<MeshBuffers> upload(gpu::Device& device, const asset::Primitive& primitive);
+    [[nodiscard]] uint64_t bytes() const;
+};
+
+/// All of one asset that drawing needs: per mesh its triangle primitives, and the materials'
+/// images.
+struct AssetMeshes {
+    std::vector<std::vector<MeshBuffers>> meshes;
+    std::vector<gpu::Image> images;  ///< by asset image; empty where no material samples it
+};
+
+struct MeshPipelines {
+    const gpu::Pipeline* skin = nullptr;
+    const gpu::Pipeline* draw = nullptr;            ///< back faces culled
+    const gpu::Pipeline* draw_two_sided = nullptr;  ///< nothing culled
+    const gpu::Pipeline* shadow = nullptr;
+};
+
+/// Meshes on the device, by asset index of the SceneLibrary. Resource.
+struct MeshLibrary {
+    std::vector<AssetMeshes> assets;
+    gpu::Image white;  ///< one texel, for materials without image and frames without shadows
+    MeshPipelines pipelines;
+
+    /// Uploads the assets that are not there yet and makes the pipelines, outside the frame. Errors
+    /// name the resource that did not fit.
+    Result<void> update(gpu::Device& device, const scene::SceneLibrary& library);
+    [[nodiscard]] uint64_t bytes() const;
+};
+
+}  // namespace vellus::character

@@ -1,0 +1,149 @@
+#include "modules/character/passes.h"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/frame_graph/context.h"
+
+namespace vellus::character {
+namespace {
+
+constexpr uint32_t kSkinGroup = 64;
+
+/// The part of the shadow atlas that belongs to one light.
+struct Tile {
+    uint32_t light;
+    uint32_t left;
+    uint32_t size;
+};
+
+void set_tile(VkCommandBuffer commands, const Tile& tile) {
+    const VkViewport viewport{.x = static_cast<float>(tile.left),
+                              .width = static_cast<float>(tile.size),
+                              .height = static_cast<float>(tile.size),
+                              .maxDepth = 1.0f};
+    const VkRect2D scissor{{static_cast<int32_t>(tile.left), 0}, {tile.size, tile.size}};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+    vkCmdSetScissor(commands, 0, 1, &scissor);
+}
+
+struct Tiles {
+    std::array<Tile, light::kMaxLights> tile{};
+    uint32_t count = 0;
+};
+
+Tiles shadow_tiles(const light::LightBlock& block) {
+    Tiles tiles;
+    for (uint32_t i = 0; i < block.count; ++i) {
+        const light::PunctualLight& light = block.light[i];
+        if (light.shadow_tile == light::kNoShadow) continue;
+        tiles.tile[tiles.count++] = {i, light.shadow_tile * light.shadow_size, light.shadow_size};
+    }
+    return tiles;
+}
+
+}  // namespace
+
+void record_skinning(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws,
+                     const MeshPipelines& pipelines, VkDeviceAddress skinned) {
+    commands.bind(*pipelines.skin);
+    for (const MeshDraw& draw : draws) {
+        SkinPush push = draw.skin;
+        push.skinned += skinned;
+        commands.push(push);
+        commands.dispatch_threads(push.vertex_count, kSkinGroup);
+    }
+}
+
+void record_meshes(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws,
+                   VkDeviceAddress skinned, VkDeviceAddress view, VkDeviceAddress lights,
+                   VkImageView opaque_shadows) {
+    const gpu::Pipeline* bound = nullptr;
+    VkImageView sampled = VK_NULL_HANDLE;
+    for (const MeshDraw& draw : draws) {
+        if (!draw.in_view) continue;
+        if (draw.pipeline != bound) commands.bind(*draw.pipeline);
+        if (draw.pipeline != bound || draw.base_color != sampled) {
+            commands.images({draw.base_color, opaque_shadows});
+        }
+        bound = draw.pipeline;
+        sampled = draw.base_color;
+        MeshPush push = draw.mesh;
+        push.view = view;
+        push.lights = lights;
+        push.vertices = skinned + draw.skin.skinned;
+        commands.push(push);
+        commands.draw_indexed(draw.indices, draw.index_count);
+    }
+}
+
+void record_shadow(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws,
+                   const MeshPipelines& pipelines, VkDeviceAddress skinned, VkDeviceAddress lights,
+                   uint32_t light) {
+    commands.bind(*pipelines.shadow);
+    for (const MeshDraw& draw : draws) {
+        commands.push(ShadowPush{lights, skinned + draw.skin.skinned, light});
+        commands.draw_indexed(draw.indices, draw.index_count);
+    }
+}
+
+void gather_meshes(MeshQuery meshes, Res<const scene::SceneLibrary> scenes,
+                   Res<const MeshLibrary> library, Res<const DeformColumns> columns,
+                   Res<const scene::ViewState> view, Res<scene::RenderFrame> frame,
+                   Res<MeshDraws> draws) {
+    collect_draws(meshes, *scenes, *library, *columns, *view, frame->uploads, *draws);
+}
+
+void describe_skinning(Res<const MeshDraws> draws, Res<const MeshLibrary> library,
+                       Res<scene::RenderFrame> frame, Res<MeshPasses> passes) {
+    passes->skinned = {};
+    if (draws->draws.empty()) return;
+    auto pass = frame->graph.add_pass("character/skin", graph::PassKind::kCompute);
+    const auto empty = frame->graph.create_buffer("skinned vertices", {draws->skinned_bytes});
+    passes->skinned = pass.write(empty, graph::Access::kStorageWrite, graph::Load::kDiscard);
+    pass.execute([skinned = passes->skinned, list = std::span(draws->draws),
+                  pipelines = &library->pipelines](graph::PassContext& context) {
+        record_skinning(context.commands(), list, *pipelines, context.address(skinned));
+    });
+}
+
+void describe_mesh_shadows(Res<const MeshDraws> draws, Res<const MeshLibrary> library,
+                           Res<const light::LightSet> lights, Res<scene::RenderFrame> frame,
+                           Res<const MeshPasses> passes) {
+    const Tiles tiles = shadow_tiles(lights->block);
+    if (tiles.count == 0 || !passes->skinned || !frame->opaque_shadows) return;
+    auto pass = frame->graph.add_pass("character/shadows", graph::PassKind::kRaster);
+    pass.read(passes->skinned, graph::Access::kGraphicsStorageRead);
+    frame->opaque_shadows = pass.depth(frame->opaque_shadows);
+    pass.execute([skinned = passes->skinned, tiles, list = std::span(draws->draws),
+                  block = frame->lights,
+                  pipelines = &library->pipelines](graph::PassContext& context) {
+        for (uint32_t i = 0; i < tiles.count; ++i) {
+            set_tile(context.commands().handle(), tiles.tile[i]);
+            record_shadow(context.commands(), list, *pipelines, context.address(skinned), block,
+                          tiles.tile[i].light);
+        }
+    });
+}
+
+void describe_meshes(Res<const MeshDraws> draws, Res<const MeshLibrary> library,
+                     Res<scene::RenderFrame> frame, Res<const MeshPasses> passes) {
+    const auto seen = [](const MeshDraw& draw) { return draw.in_view; };
+    if (!passes->skinned || std::ranges::none_of(draws->draws, seen)) return;
+    auto pass = frame->graph.add_pass("character/meshes", graph::PassKind::kRaster);
+    frame->color = pass.color(frame->color);
+    frame->velocity = pass.color(frame->velocity);
+    frame->depth = pass.depth(frame->depth);
+    const graph::ImageHandle shadows = frame->opaque_shadows;
+    pass.read(passes->skinned, graph::Access::kGraphicsStorageRead);
+    if (shadows) pass.read(shadows, graph::Access::kSampledFragment);
+    if (frame->hair_shadows) pass.read(frame->hair_shadows, graph::Access::kGraphicsStorageRead);
+    pass.execute([skinned = passes->skinned, shadows, list = std::span(draws->draws),
+                  view = frame->view, lights = frame->lights,
+                  white = library->white.view()](graph::PassContext& context) {
+        record_meshes(context.commands(), list, context.address(skinned), view, lights,
+                      shadows ? context.view(shadows) : white);
+    });
+}
+
+}  // namespace vellus::character
