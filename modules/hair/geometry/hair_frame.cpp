@@ -128,8 +128,7 @@ std::string_view text(EffectReason reason) {
     return "";
 }
 
-void update_hair_bounds(Query<const Hair, const scene::WorldTransform, scene::WorldBounds> hair,
-                        Res<const HairLibrary> library) {
+void update_hair_bounds(HairBoundsQuery hair, Res<const HairLibrary> library) {
     hair.each([&](const Hair& item, const scene::WorldTransform& world, scene::WorldBounds& out) {
         const Bounds& bounds = library->grooms[item.groom].bounds;
         scene::Box box;

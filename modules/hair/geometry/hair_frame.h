@@ -4,6 +4,7 @@
 
 #include "engine/ecs/query.h"
 #include "engine/ecs/system.h"
+#include "modules/character/components.h"
 #include "modules/hair/components.h"
 #include "modules/light/light_set.h"
 #include "modules/scene/bounds.h"
@@ -92,9 +93,12 @@ struct HairFrame {
     graph::BufferHandle projected;
 };
 
+/// Hair of its own: the box of an entity with a mesh belongs to the character module.
+using HairBoundsQuery = Query<const Hair, const scene::WorldTransform, scene::WorldBounds,
+                              Without<character::MeshSlot>>;
+
 /// System: boxes of hair in the world, widened by a strand.
-void update_hair_bounds(Query<const Hair, const scene::WorldTransform, scene::WorldBounds> hair,
-                        Res<const HairLibrary> library);
+void update_hair_bounds(HairBoundsQuery hair, Res<const HairLibrary> library);
 
 /// System: which grooms this frame draws, how, and why.
 void gather_hair(Query<const Hair, const scene::WorldTransform, const scene::PreviousWorldTransform,

@@ -1,0 +1,140 @@
+#include "game_demo/src/content.h"
+
+#include <algorithm>
+
+#include "engine/asset/gltf.h"
+#include "engine/platform/log.h"
+#include "modules/character/components.h"
+#include "modules/hair/components.h"
+#include "modules/hair/spawn.h"
+#include "modules/light/load_environment.h"
+#include "modules/scene/camera.h"
+#include "modules/scene/instantiate.h"
+#include "modules/scene/view.h"
+
+namespace vellus::demo {
+
+namespace {
+
+// A little from the side and above: a head shows its face and the fall of its hair.
+constexpr double kDefaultYaw = 0.35;
+constexpr double kDefaultPitch = 0.08;
+
+bool is_gltf(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return std::tolower(c); });
+    return extension == ".gltf" || extension == ".glb";
+}
+
+/// A glTF file of nothing but lines is a groom.
+bool is_groom(const asset::SceneAsset& scene) {
+    bool lines = false;
+    for (const asset::Mesh& mesh : scene.meshes) {
+        for (const asset::Primitive& primitive : mesh.primitives) {
+            if (primitive.topology == asset::Topology::kTriangles) return false;
+            lines |= primitive.topology != asset::Topology::kPoints;
+        }
+    }
+    return lines;
+}
+
+Result<void> load_environment(World& world, gpu::Device& device, const asset::SceneAsset& scene) {
+    const std::string* json =
+        scene::find_extension(scene.extensions, light::kEnvironmentExtensionName);
+    if (!json) return light::use_sky(world, device, {});
+    auto environment = light::parse_environment_extension(*json, scene.path.string());
+    if (!environment) return environment.error();
+    for (const std::string& warning : environment->warnings) log_warning("{}", warning);
+    return light::load_environment(world, device, *environment, scene.path.parent_path());
+}
+
+Result<void> load_scene(World& world, gpu::Device& device,
+                        const std::shared_ptr<const asset::SceneAsset>& scene) {
+    for (const std::string& warning : scene->warnings) log_warning("{}", warning);
+    auto instance = scene::instantiate(world, scene);
+    if (!instance) return instance.error();
+    if (auto hair = hair::spawn_scene_hair(world, device, *instance); !hair) return hair;
+    if (!scene->animations.empty()) {
+        const Entity root = world.resource<scene::SceneLibrary>().instances[*instance].root;
+        world.add(root, character::AnimationPlayer{});
+    }
+    return load_environment(world, device, *scene);
+}
+
+Result<void> load_file(World& world, gpu::Device& device, const std::filesystem::path& path) {
+    if (is_gltf(path)) {
+        auto scene = asset::load_gltf(path);
+        if (!scene) return scene.error();
+        if (!is_groom(*scene)) {
+            return load_scene(world, device,
+                              std::make_shared<const asset::SceneAsset>(std::move(*scene)));
+        }
+    }
+    auto hair = hair::spawn_hair(world, device, path, {}, kNoEntity);
+    if (!hair) return hair.error();
+    return light::use_sky(world, device, {});
+}
+
+template <class Component>
+Entity first_with(World& world) {
+    Entity first = kNoEntity;
+    world.query<Entity, const Component>().each([&](Entity entity, const Component&) {
+        if (first == kNoEntity || entity.index < first.index) first = entity;
+    });
+    return first;
+}
+
+void set_techniques(World& world, const std::vector<TechniqueChoice>& choices) {
+    world.query<hair::HairTechniques>().each([&](hair::HairTechniques& techniques) {
+        for (const TechniqueChoice& choice : choices) {
+            const auto set = hair::set_technique(techniques, choice.axis, choice.technique);
+            assert(set);
+            static_cast<void>(set);
+        }
+    });
+}
+
+scene::Box box_of(World& world) {
+    scene::Box box;
+    world.query<const scene::WorldBounds>().each([&](const scene::WorldBounds& bounds) {
+        if (!bounds.box.empty()) box.include(bounds.box);
+    });
+    return box;
+}
+
+Result<void> place_camera(Renderer& renderer) {
+    World& world = renderer.world();
+    if (const Entity camera = first_with<scene::Camera>(world); camera != kNoEntity) {
+        world.add(camera, scene::ActiveCamera{});
+        return renderer.settle();
+    }
+    if (auto settled = renderer.settle(); !settled) return settled;
+    const glm::dvec2 size(world.resource<scene::ViewSettings>().size);
+    const scene::CameraPose pose =
+        scene::frame_box(box_of(world), kDefaultYaw, kDefaultPitch, size.x / size.y);
+    world.spawn(scene::Camera{pose.vertical_fov, pose.near_plane}, scene::local_transform(pose),
+                scene::WorldTransform{}, scene::PreviousWorldTransform{}, scene::ActiveCamera{});
+    return renderer.settle();
+}
+
+}  // namespace
+
+std::filesystem::path content_path(const Options& options) {
+    if (!options.scene.empty()) return options.scene;
+    return std::filesystem::path(VELLUS_ASSET_DIR) / "scenes" / "portrait.gltf";
+}
+
+Result<void> load_content(Renderer& renderer, gpu::Device& device, const Options& options) {
+    World& world = renderer.world();
+    auto& step = world.resource<scene::FixedStep>();
+    step.dt = options.dt;
+    step.seed = options.seed;
+    renderer.resize(options.size[0], options.size[1]);
+    if (auto loaded = load_file(world, device, content_path(options)); !loaded) return loaded;
+    if (first_with<scene::Light>(world) == kNoEntity) light::spawn_sun(world, {});
+    set_techniques(world, options.techniques);
+    return place_camera(renderer);
+}
+
+}  // namespace vellus::demo

@@ -1,0 +1,106 @@
+#include "game_demo/src/controls.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vellus::demo {
+
+namespace {
+
+constexpr double kTurnPerHeight = 3.0;  ///< radians for a drag over the window's height
+constexpr double kScrollStep = 0.88;    ///< distance after one step of the wheel
+constexpr double kMaxPitch = 1.55;      ///< short of the pole, where yaw would jump
+constexpr double kStickDeadZone = 0.15;
+constexpr double kStickTurn = 0.03;  ///< radians a frame
+
+double stick(float value) {
+    return std::abs(value) < kStickDeadZone ? 0.0 : value;
+}
+
+void turn(Orbit& orbit, double right, double down) {
+    orbit.yaw = std::remainder(orbit.yaw - right, 2.0 * std::acos(-1.0));
+    orbit.pitch = std::clamp(orbit.pitch + down, -kMaxPitch, kMaxPitch);
+}
+
+bool steer_by_mouse(Orbit& orbit, const Input& input, double height) {
+    const bool moved = input.cursor_dx != 0.0 || input.cursor_dy != 0.0;
+    const double right = input.cursor_dx / height;
+    const double down = input.cursor_dy / height;
+    if (moved && input.button(MouseButton::kLeft).held) {
+        turn(orbit, kTurnPerHeight * right, kTurnPerHeight * down);
+        return true;
+    }
+    if (moved &&
+        (input.button(MouseButton::kRight).held || input.button(MouseButton::kMiddle).held)) {
+        // What was under the pointer stays there.
+        const double metres = 2.0 * orbit.distance * std::tan(0.5 * orbit.vertical_fov);
+        const glm::dmat3 axes = scene::orbit_axes(orbit.yaw, orbit.pitch);
+        orbit.target += metres * (down * axes[1] - right * axes[0]);
+        return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+Orbit orbit_from(const scene::CameraPose& pose, const glm::dvec3& center) {
+    const glm::dvec3 back = pose.axes[2];
+    const double ahead = glm::dot(center - pose.position, -back);
+    Orbit orbit;
+    orbit.distance = std::max(ahead, 0.05);
+    orbit.target = pose.position - back * orbit.distance;
+    orbit.yaw = std::atan2(back.x, back.z);
+    orbit.pitch = std::clamp(std::asin(std::clamp(back.y, -1.0, 1.0)), -kMaxPitch, kMaxPitch);
+    orbit.vertical_fov = pose.vertical_fov;
+    return orbit;
+}
+
+scene::CameraPose pose_of(const Orbit& orbit) {
+    return scene::orbit_pose(orbit.target, orbit.distance, orbit.yaw, orbit.pitch,
+                             orbit.vertical_fov);
+}
+
+bool steer(Orbit& orbit, const Input& input, double height) {
+    bool steered = steer_by_mouse(orbit, input, std::max(height, 1.0));
+    double closer = input.scroll_y;
+    if (input.gamepad.connected) {
+        const double right = stick(input.gamepad.axes[2]);
+        const double down = stick(input.gamepad.axes[3]);
+        if (right != 0.0 || down != 0.0) {
+            turn(orbit, kStickTurn * right, kStickTurn * down);
+            steered = true;
+        }
+        closer += 0.1 * stick(0.5f * (input.gamepad.axes[5] - input.gamepad.axes[4]));
+    }
+    if (closer != 0.0) {
+        orbit.distance = std::clamp(orbit.distance * std::pow(kScrollStep, closer), 1e-3, 1e6);
+        steered = true;
+    }
+    return steered;
+}
+
+Wishes read_wishes(const Input& input) {
+    const auto pressed = [&](Key key) { return input.key(key).pressed; };
+    Wishes wishes{.quit = pressed(Key::kEscape),
+                  .pause = pressed(Key::kSpace),
+                  .step = pressed(Key::kN),
+                  .screenshot = pressed(Key::kF12) || pressed(Key::kP),
+                  .help = pressed(Key::kF1) || pressed(Key::kH),
+                  .taa = pressed(Key::kT),
+                  .home = pressed(Key::kHome)};
+    constexpr std::array kAxisKeys = {Key::k1, Key::k2, Key::k3, Key::k4, Key::k5};
+    for (size_t axis = 0; axis < kAxisKeys.size(); ++axis) {
+        if (pressed(kAxisKeys[axis])) wishes.next_technique = axis;
+    }
+    return wishes;
+}
+
+const char* controls_help() {
+    return "drag            turn            right drag  move           wheel  come closer\n"
+           "Space           pause           N           one step       Home   camera of the start\n"
+           "P or F12        screenshot      T           TAA on or off  Esc    end\n"
+           "1 2 3 4 5       next technique for opacity, shadow, scattering, multiple, environment\n"
+           "H or F1         this help\n";
+}
+
+}  // namespace vellus::demo

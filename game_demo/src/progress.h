@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+
+namespace vellus::demo {
+
+/// A bar on stderr that says how far a long run is; silent where stderr is no terminal.
+class Progress {
+  public:
+    explicit Progress(uint32_t total);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    void update(uint32_t done);
+
+  private:
+    uint32_t total_;
+    double start_;
+    bool visible_;
+};
+
+}  // namespace vellus::demo

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/asset/image.h"
+#include "engine/ecs/ecs.h"
+#include "engine/frame_graph/execute.h"
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/image.h"
+#include "game_demo/src/stats.h"
+
+namespace vellus::demo {
+
+/// Where a finished frame goes.
+enum class Output : uint8_t {
+    kNowhere,  ///< drawn, but not kept
+    kPixels,   ///< to the CPU: pixels()
+    kPicture,  ///< to picture(), ready to be presented
+};
+
+/// The modules, their world and schedule, and the executor of the frames they describe.
+class Renderer {
+  public:
+    static Result<std::unique_ptr<Renderer>> create(gpu::Device& device,
+                                                    const graph::Switches& switches);
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    World& world() { return world_; }
+    /// Size of the frames from now on; starts histories anew.
+    void resize(uint32_t width, uint32_t height);
+    /// Lets the systems place everything once without drawing: bounds are known afterwards.
+    Result<void> settle();
+    /// One frame: systems, graph, device. Does not wait for the device.
+    Result<void> draw(Output output);
+    /// Waits for all frames; report() is then that of the last one.
+    Result<void> wait();
+
+    [[nodiscard]] const graph::FrameReport& report() const { return executor_->report(); }
+    /// Of the last frame drawn to kPixels, after wait().
+    [[nodiscard]] asset::Image pixels() const;
+    /// Of the last frame drawn to kPicture; in TRANSFER_SRC_OPTIMAL.
+    [[nodiscard]] const gpu::Image& picture() const { return picture_; }
+    /// The last frame's effect plan, a line per groom and axis.
+    [[nodiscard]] std::vector<EffectRow> effects() const;
+    /// The last frame's graph as text: steps, barriers with reasons, memory.
+    [[nodiscard]] std::string explain_graph() const;
+
+  private:
+    explicit Renderer(gpu::Device& device) : device_(device) {}
+    Result<void> register_modules();
+    Result<void> run_systems();
+    Result<void> describe_output(Output output);
+
+    gpu::Device& device_;
+    World world_;
+    Schedule schedule_{"frame"};
+    bool built_ = false;
+    std::unique_ptr<graph::Executor> executor_;
+    gpu::Buffer readback_;
+    std::array<uint32_t, 2> readback_size_{};
+    gpu::Image picture_;
+};
+
+}  // namespace vellus::demo
