@@ -157,7 +157,7 @@ size_t assemble(int mode, Primitive& primitive) {
 
 size_t vertex_bytes(const Primitive& primitive) {
     return sizeof(glm::vec3) * (2 + 2 * primitive.morph_targets.size()) + sizeof(glm::vec2) +
-           2 * sizeof(glm::vec4) + sizeof(glm::u16vec4) + sizeof(uint32_t);
+           2 * sizeof(glm::vec4) + sizeof(glm::u16vec4) + sizeof(float) + sizeof(uint32_t);
 }
 
 void separate_vertices(Primitive& primitive) {
@@ -166,6 +166,7 @@ void separate_vertices(Primitive& primitive) {
     gather(primitive.normals, indices);
     gather(primitive.texcoords, indices);
     gather(primitive.colors, indices);
+    gather(primitive.thickness, indices);
     gather(primitive.joints, indices);
     gather(primitive.weights, indices);
     for (MorphTarget& target : primitive.morph_targets) {

@@ -65,6 +65,16 @@ std::vector<glm::vec4> read_colors(Context& context, const Attributes& attribute
     return colors;
 }
 
+/// The custom attribute _THICKNESS, one float.
+std::vector<float> read_thickness(Context& context, const Attributes& attributes, size_t count,
+                                  const std::string& pointer) {
+    const auto values = read_attribute<1>(context, attributes, "_THICKNESS", count, pointer);
+    std::vector<float> thickness;
+    thickness.reserve(values.size());
+    for (const auto& value : values) thickness.push_back(value.x);
+    return thickness;
+}
+
 /// All sets JOINTS_n and WEIGHTS_n, reduced to the four strongest influences of each vertex.
 void read_influences(Context& context, const Attributes& attributes, const std::string& pointer,
                      Primitive& primitive) {
@@ -190,6 +200,7 @@ std::optional<Primitive> read_primitive(Context& context, const tinygltf::Primit
     primitive.normals = read_attribute<3>(context, from.attributes, "NORMAL", count, place);
     primitive.texcoords = read_attribute<2>(context, from.attributes, "TEXCOORD_0", count, place);
     primitive.colors = read_colors(context, from.attributes, count, place);
+    primitive.thickness = read_thickness(context, from.attributes, count, place);
     read_influences(context, from.attributes, place, primitive);
     read_morph_targets(context, from, pointer, primitive);
     primitive.indices = read_indices(context, from, count, pointer);
