@@ -16,7 +16,7 @@ namespace {
 constexpr size_t kStrandsPerJob = 256;
 /// Ends closer than this, in metres, coincide: a hair's diameter is 1e-4.
 constexpr double kShortestSegment = 1e-9;
-constexpr float kParameterScale = 65535.0f;
+constexpr double kParameterScale = 65535.0;
 
 /// Spreads ten bits three apart.
 uint32_t spread_bits(uint32_t bits) {
@@ -38,21 +38,29 @@ uint32_t mix_bits(uint32_t x) {
     return x ^ (x >> 16U);
 }
 
-glm::vec3 place(const glm::dmat4& to_metres, glm::vec3 point) {
-    return {to_metres * glm::dvec4(point, 1.0)};
-}
+/// The affine part of a matrix: half the arithmetic of the whole.
+struct Placement {
+    glm::dmat3 turn{1.0};
+    glm::dvec3 move{0.0};
+
+    explicit Placement(const glm::dmat4& matrix) : turn(matrix), move(matrix[3]) {}
+    [[nodiscard]] glm::vec3 operator()(glm::vec3 point) const {
+        return {turn * glm::dvec3(point) + move};
+    }
+};
 
 bool coincide(glm::vec3 a, glm::vec3 b) {
-    return glm::distance(glm::dvec3(a), glm::dvec3(b)) < kShortestSegment;
+    const glm::dvec3 step = glm::dvec3(a) - glm::dvec3(b);
+    return glm::dot(step, step) < kShortestSegment * kShortestSegment;
 }
 
 /// Calls `visit(point index, position)` for the points of a strand that differ from the one before.
 template <class Visit>
-void visit_points(const Groom& groom, const glm::dmat4& to_metres, size_t strand,
+void visit_points(const Groom& groom, const Placement& placement, size_t strand,
                   const Visit& visit) {
     glm::vec3 last(0.0f);
     for (uint32_t p = groom.strand_begin[strand]; p < groom.strand_begin[strand + 1]; ++p) {
-        const glm::vec3 position = place(to_metres, groom.points[p]);
+        const glm::vec3 position = placement(groom.points[p]);
         if (p > groom.strand_begin[strand] && coincide(position, last)) continue;
         last = position;
         visit(p, position);
@@ -81,13 +89,13 @@ std::vector<uint32_t> sort_strands(const Groom& groom) {
 }
 
 /// Sets strand_source and strand_begin: sorted, without strands that have no segment left.
-void lay_out_strands(const Groom& groom, const glm::dmat4& to_metres, StrandData& data) {
+void lay_out_strands(const Groom& groom, const Placement& placement, StrandData& data) {
     const std::vector<uint32_t> order = sort_strands(groom);
     std::vector<uint32_t> counts(order.size());
     parallel_ranges(order.size(), kStrandsPerJob, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) {
             uint32_t count = 0;
-            visit_points(groom, to_metres, order[i], [&](uint32_t, glm::vec3) { ++count; });
+            visit_points(groom, placement, order[i], [&](uint32_t, glm::vec3) { ++count; });
             counts[i] = count;
         }
     });
@@ -147,14 +155,14 @@ glm::vec2 root_uv(const Groom& groom, uint32_t strand) {
 /// Fills the columns of strands; several run at once, each on its own range.
 class Filler {
   public:
-    Filler(const Groom& groom, const glm::dmat4& to_metres, double unit, StrandData& data)
-        : groom_(groom), to_metres_(to_metres), unit_(unit), data_(data) {}
+    Filler(const Groom& groom, const Placement& placement, double unit, StrandData& data)
+        : groom_(groom), placement_(placement), unit_(unit), data_(data) {}
 
     void fill(size_t strand) {
         const uint32_t source = data_.strand_source[strand];
         const uint32_t begin = data_.strand_begin[strand];
         uint32_t to = begin;
-        visit_points(groom_, to_metres_, source, [&](uint32_t from, glm::vec3 position) {
+        visit_points(groom_, placement_, source, [&](uint32_t from, glm::vec3 position) {
             data_.positions[to] = position;
             if (!data_.point_width.empty()) {
                 const double given = thickness_at(groom_, source, from) * unit_;
@@ -184,33 +192,30 @@ class Filler {
     void fill_lengths(size_t strand) {
         const uint32_t begin = data_.strand_begin[strand];
         const uint32_t end = data_.strand_begin[strand + 1];
-        double total = 0.0;
-        for (uint32_t p = begin; p + 1 < end; ++p) total += length_after(p);
-        double along = 0.0;
+        along_.assign(1, 0.0);
         for (uint32_t p = begin; p + 1 < end; ++p) {
-            data_.point_parameter[p] = to_parameter(along / total);
-            const double length = length_after(p);
+            const double length =
+                glm::distance(glm::dvec3(data_.positions[p]), glm::dvec3(data_.positions[p + 1]));
             longest_ = std::max(longest_, static_cast<float>(length));
-            along += length;
+            along_.push_back(along_.back() + length);
             const size_t segment = p - strand;
             data_.segment_point[segment] = p;
             data_.segment_strand[segment] = static_cast<uint32_t>(strand);
         }
-        data_.point_parameter[end - 1] = to_parameter(1.0);
-        data_.strand_length[strand] = static_cast<float>(total);
-    }
-    [[nodiscard]] double length_after(uint32_t point) const {
-        return glm::distance(glm::dvec3(data_.positions[point]),
-                             glm::dvec3(data_.positions[point + 1]));
-    }
-    static uint16_t to_parameter(double value) {
-        return static_cast<uint16_t>(std::lround(value * kParameterScale));
+        const double scale = kParameterScale / along_.back();
+        for (uint32_t p = begin; p < end; ++p) {
+            // At most 65535.5 and a few ulp, which truncates to 65535.
+            data_.point_parameter[p] = static_cast<uint16_t>(along_[p - begin] * scale + 0.5);
+        }
+        data_.strand_length[strand] = static_cast<float>(along_.back());
     }
 
     const Groom& groom_;
-    const glm::dmat4& to_metres_;
+    const Placement& placement_;
     double unit_;
     StrandData& data_;
+    /// Arc length at each point of the strand at hand.
+    std::vector<double> along_;
     Bounds bounds_;
     float longest_ = 0.0f;
 };
@@ -219,12 +224,13 @@ class Filler {
 
 StrandData prepare_strands(const Groom& groom, const glm::dmat4& to_metres, float width) {
     StrandData data;
+    const Placement placement(to_metres);
     const double unit = std::cbrt(std::abs(glm::determinant(glm::dmat3(to_metres))));
-    lay_out_strands(groom, to_metres, data);
+    lay_out_strands(groom, placement, data);
     resize_columns(choose_columns(groom, width, data), data);
     std::mutex merging;
     parallel_ranges(data.strand_source.size(), kStrandsPerJob, [&](size_t first, size_t last) {
-        Filler filler(groom, to_metres, unit, data);
+        Filler filler(groom, placement, unit, data);
         for (size_t strand = first; strand < last; ++strand) filler.fill(strand);
         const std::scoped_lock lock(merging);
         filler.merge_into(data);
