@@ -5,86 +5,120 @@
 #include <utility>
 
 #include "engine/ecs/contract.h"
+#include "engine/ecs/memory.h"
 
 namespace vellus {
 namespace {
 
 constexpr uint32_t kFirstCapacity = 8;
 
-std::byte* checked(void* memory) {
-    if (memory == nullptr) contract_failed("ecs: out of memory for a component column");
-    return static_cast<std::byte*>(memory);
+bool grows_in_place(const ComponentType& type) {
+    return type.trivial && type.alignment <= alignof(std::max_align_t);
 }
 
-std::byte* resized_column(const ComponentType& type, std::byte* old, size_t size, size_t capacity) {
-    const size_t bytes = capacity * type.size;
-    if (type.trivial && type.alignment <= alignof(std::max_align_t)) {
-        return checked(std::realloc(old, bytes));
+std::byte* resized_column(const ComponentType& type, std::byte* old, size_t size,
+                          size_t old_capacity, size_t capacity) {
+    if (grows_in_place(type)) {
+        return static_cast<std::byte*>(
+            resize_memory(old, old_capacity * type.size, capacity * type.size));
     }
     const size_t alignment = std::max(type.alignment, alignof(std::max_align_t));
-    const size_t rounded = (bytes + alignment - 1) / alignment * alignment;
-    std::byte* fresh = checked(std::aligned_alloc(alignment, rounded));
+    const size_t bytes = (capacity * type.size + alignment - 1) / alignment * alignment;
+    auto* const fresh = static_cast<std::byte*>(std::aligned_alloc(alignment, bytes));
+    if (fresh == nullptr) contract_failed("ecs: out of memory for a component column");
     if (size > 0) type.relocate(fresh, old, size);
     std::free(old);
     return fresh;
+}
+
+void free_column(const ComponentType& type, std::byte* data, size_t capacity) {
+    if (grows_in_place(type)) {
+        resize_memory(data, capacity * type.size, 0);
+    } else {
+        std::free(data);
+    }
 }
 
 }  // namespace
 
 Table::Table(std::vector<const ComponentType*> types)
     : data_(types.empty() ? 0 : types.back()->id + 1, nullptr), types_(std::move(types)) {
+    for (const ComponentType* type : types_) {
+        columns_.push_back({nullptr, type->size, copy_kind(type->trivial, type->size), type});
+    }
     set_capacity(kFirstCapacity);
 }
 
 Table::~Table() {
-    for (const ComponentType* type : types_) {
-        type->destroy(data_[type->id], size_);
-        std::free(data_[type->id]);
+    for (const Column& column : columns_) {
+        column.type->destroy(column.data, size_);
+        free_column(*column.type, column.data, capacity_);
     }
-    std::free(entities_);
-}
-
-void Table::reserve(size_t rows) {
-    if (rows > UINT32_MAX) contract_failed("ecs: a table holds at most 2^32 - 1 entities");
-    if (rows > capacity_) set_capacity(static_cast<uint32_t>(rows));
+    resize_memory(entities_, capacity_ * sizeof(Entity), 0);
 }
 
 void Table::grow(size_t rows) {
-    reserve(std::max(rows, std::min<size_t>(size_t{capacity_} * 2, UINT32_MAX)));
+    if (rows > UINT32_MAX) contract_failed("ecs: a table holds at most 2^32 - 1 entities");
+    const size_t doubled = std::min<size_t>(size_t{capacity_} * 2, UINT32_MAX);
+    set_capacity(static_cast<uint32_t>(std::max(rows, doubled)));
 }
 
 void Table::set_capacity(uint32_t rows) {
-    for (const ComponentType* type : types_) {
-        data_[type->id] = resized_column(*type, data_[type->id], size_, rows);
+    for (Column& column : columns_) {
+        column.data = resized_column(*column.type, column.data, size_, capacity_, rows);
+        data_[column.type->id] = column.data;
     }
-    entities_ = reinterpret_cast<Entity*>(checked(std::realloc(entities_, rows * sizeof(Entity))));
+    entities_ = static_cast<Entity*>(
+        resize_memory(entities_, capacity_ * sizeof(Entity), rows * sizeof(Entity)));
     capacity_ = rows;
+}
+
+/// Moves a row to another column; the last row fills the gap.
+inline void Table::Column::take(size_t row, size_t last, const Column& to, size_t to_row) const {
+    std::byte* const hole = data + row * size;
+    std::byte* const target = to.data + to_row * size;
+    const auto by_copy = [&](const auto& copy) {
+        copy(target, hole);
+        copy(hole, data + last * size);
+    };
+    if (!with_copy(copy_kind, size, by_copy)) type->take(target, hole, data + last * size);
+}
+
+inline void Table::Column::erase(size_t row, size_t last) const {
+    std::byte* const hole = data + row * size;
+    const auto by_copy = [&](const auto& copy) { copy(hole, data + last * size); };
+    if (!with_copy(copy_kind, size, by_copy)) type->take(nullptr, hole, data + last * size);
 }
 
 void Table::erase(uint32_t row) {
     const size_t last = --size_;
-    for (const ComponentType* type : types_) {
-        std::byte* column = data_[type->id];
-        type->take(nullptr, column + row * type->size, column + last * type->size);
-    }
+    for (const Column& column : columns_) column.erase(row, last);
     entities_[row] = entities_[last];
 }
 
-void Table::take_row(uint32_t row, Table& to, uint32_t to_row) {
+uint32_t Table::take_row(Entity entity, uint32_t row, const Neighbour& to) {
+    const uint32_t to_row = to.table->append(1);
+    to.table->entities_[to_row] = entity;
     const size_t last = --size_;
-    for (const ComponentType* type : types_) {
-        std::byte* column = data_[type->id];
-        std::byte* target = to.data(type->id);
-        type->take(target == nullptr ? nullptr : target + to_row * type->size,
-                   column + row * type->size, column + last * type->size);
-    }
-    to.entities_[to_row] = entities_[row];
     entities_[row] = entities_[last];
+    const Column* from = columns_.data();
+    const Column* const end = from + columns_.size();
+    const Column* target = to.table->columns_.data();
+    for (const Column* split = from + to.slot; from != split; ++from, ++target) {
+        from->take(row, last, *target, to_row);
+    }
+    if (to.adds) {
+        ++target;
+    } else {
+        from++->erase(row, last);
+    }
+    for (; from != end; ++from, ++target) from->take(row, last, *target, to_row);
+    return to_row;
 }
 
-void Table::set_neighbour(ComponentId id, Table& table) {
-    if (neighbours_.size() <= id) neighbours_.resize(id + 1, nullptr);
-    neighbours_[id] = &table;
+void Table::set_neighbour(ComponentId id, Neighbour neighbour) {
+    if (neighbours_.size() <= id) neighbours_.resize(id + 1);
+    neighbours_[id] = neighbour;
 }
 
 }  // namespace vellus

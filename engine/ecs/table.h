@@ -7,15 +7,23 @@
 
 #include "engine/ecs/component.h"
 #include "engine/ecs/entity.h"
+#include "engine/ecs/memory.h"
 
 namespace vellus {
 
 /// All entities with the same set of components: one contiguous column per component, plus the
 /// entities themselves; row i of every column belongs to the same entity. Rows are dense: the last
-/// row fills a removed one. Columns of trivial types grow by realloc, which remaps large blocks
-/// instead of copying them (README, "Why contiguous").
+/// row fills a removed one.
 class Table {
   public:
+    /// A table that has one component more, or less, than another; `slot` is that component's
+    /// column in the larger one.
+    struct Neighbour {
+        Table* table = nullptr;
+        uint32_t slot = 0;
+        bool adds = false;  ///< This is the larger one.
+    };
+
     /// `types` sorted by id, without duplicates.
     explicit Table(std::vector<const ComponentType*> types);
     ~Table();
@@ -37,35 +45,53 @@ class Table {
         return reinterpret_cast<T*>(data(kComponent<T>.id));
     }
 
-    void reserve(size_t rows);
+    [[nodiscard]] std::byte* slot_data(uint32_t slot) const noexcept { return columns_[slot].data; }
+
+    /// Has space for so many more rows: at least doubles it where it grows.
+    void make_room(size_t rows) {
+        if (rows > capacity_ - size_) grow(size_ + rows);
+    }
     /// Adds rows whose components the caller must construct, and whose entities it must set.
-    uint32_t append(uint32_t count) {
-        if (count > capacity_ - size_) grow(size_t{size_} + count);
+    uint32_t append(size_t count) {
+        make_room(count);
         const uint32_t first = size_;
-        size_ += count;
+        size_ += static_cast<uint32_t>(count);
         return first;
     }
     /// Destroys a row's components; the last row fills the gap.
     void erase(uint32_t row);
-    /// Moves the row's components that `to` has into `to`'s `to_row`; drops the others.
-    void take_row(uint32_t row, Table& to, uint32_t to_row);
+    /// Moves the entity's row to a new row, which is returned, of the other table; destroys the
+    /// component that one lacks, and leaves raw memory for the one it adds. The last row fills the
+    /// gap.
+    uint32_t take_row(Entity entity, uint32_t row, const Neighbour& to);
 
-    /// The table with `id` added (or removed, where this one has it); null until first needed.
-    [[nodiscard]] Table* neighbour(ComponentId id) const noexcept {
-        return id < neighbours_.size() ? neighbours_[id] : nullptr;
+    /// What lies behind adding (or, where this has it, removing) the component; null until set.
+    [[nodiscard]] Neighbour neighbour(ComponentId id) const noexcept {
+        return id < neighbours_.size() ? neighbours_[id] : Neighbour{};
     }
-    void set_neighbour(ComponentId id, Table& table);
+    void set_neighbour(ComponentId id, Neighbour neighbour);
 
   private:
+    struct Column {
+        std::byte* data;
+        size_t size;  // of one object
+        CopyKind copy_kind;
+        const ComponentType* type;
+
+        void take(size_t row, size_t last, const Column& to, size_t to_row) const;
+        void erase(size_t row, size_t last) const;
+    };
+
     void grow(size_t rows);
     void set_capacity(uint32_t rows);
 
     uint32_t size_ = 0;
     uint32_t capacity_ = 0;
     Entity* entities_ = nullptr;
-    std::vector<std::byte*> data_;  // by component id
+    std::vector<Column> columns_;
+    std::vector<std::byte*> data_;  // the columns' data by component id
     std::vector<const ComponentType*> types_;
-    std::vector<Table*> neighbours_;  // by component id
+    std::vector<Neighbour> neighbours_;  // by component id
 };
 
 }  // namespace vellus

@@ -43,14 +43,16 @@ Table& World::table_of(std::vector<const ComponentType*> types) {
     return *table;
 }
 
-Table& World::neighbour(Table& table, const ComponentType& type) {
-    if (Table* const known = table.neighbour(type.id); known != nullptr) return *known;
+Table::Neighbour World::find_neighbour(Table& table, const ComponentType& type) {
     std::vector<const ComponentType*> types(table.types().begin(), table.types().end());
-    if (std::erase(types, &type) == 0) types.push_back(&type);
+    const bool adds = std::erase(types, &type) == 0;
+    if (adds) types.push_back(&type);
     Table& other = table_of(std::move(types));
-    table.set_neighbour(type.id, other);
-    other.set_neighbour(type.id, table);
-    return other;
+    const auto all = (adds ? other : table).types();
+    const auto slot = static_cast<uint32_t>(std::ranges::find(all, &type) - all.begin());
+    table.set_neighbour(type.id, {&other, slot, adds});
+    other.set_neighbour(type.id, {&table, slot, !adds});
+    return {&other, slot, adds};
 }
 
 QueryState& World::register_query(uint32_t index, QueryState state) {
@@ -64,34 +66,35 @@ QueryState& World::register_query(uint32_t index, QueryState state) {
 uint32_t World::append_row(Table& table) {
     const uint32_t row = table.append(1);
     uint32_t index = first_free_;
+    uint32_t generation = 1;
     if (index == kNoSlot) {
-        index = static_cast<uint32_t>(records_.size());
-        if (index == kNoSlot) contract_failed("ecs: all 2^32 - 1 entity slots are in use");
-        records_.push_back({&table, row, 1});
+        index = append_slots(1);
     } else {
-        Record& record = records_[index];
-        first_free_ = record.row;
-        record.table = &table;
-        record.row = row;
+        first_free_ = records_[index].row;
+        generation = records_[index].generation;
     }
-    table.entity_data()[row] = {index, records_[index].generation};
+    records_[index] = {&table, row, generation};
+    table.entity_data()[row] = {index, generation};
     ++alive_count_;
     return row;
 }
 
+uint32_t World::append_slots(size_t count) {
+    if (records_.size() + count > kNoSlot) {
+        contract_failed("ecs: all 2^32 - 1 entity slots are in use");
+    }
+    return static_cast<uint32_t>(records_.append(count));
+}
+
 uint32_t World::append_rows(Table& table, size_t count) {
-    table.reserve(table.size() + count);
+    table.make_room(count);
     const uint32_t first = table.size();
     while (count > 0 && first_free_ != kNoSlot) {
         append_row(table);
         --count;
     }
-    if (records_.size() + count > kNoSlot) {
-        contract_failed("ecs: all 2^32 - 1 entity slots are in use");
-    }
-    uint32_t row = table.append(static_cast<uint32_t>(count));
-    auto index = static_cast<uint32_t>(records_.size());
-    records_.resize(records_.size() + count);
+    uint32_t index = append_slots(count);
+    uint32_t row = table.append(count);
     for (const uint32_t end = table.size(); row < end; ++row, ++index) {
         records_[index] = {&table, row, 1};
         table.entity_data()[row] = {index, 1};
@@ -100,26 +103,11 @@ uint32_t World::append_rows(Table& table, size_t count) {
     return first;
 }
 
-void World::fill_gap(const Table& table, uint32_t row) {
-    if (row < table.size()) records_[table.entities()[row].index].row = row;
-}
-
-uint32_t World::move_row(Record& record, Table& to) {
-    Table& from = *record.table;
-    const uint32_t old_row = record.row;
-    const uint32_t row = to.append(1);
-    from.take_row(old_row, to, row);
-    record.table = &to;
-    record.row = row;
-    fill_gap(from, old_row);
-    return row;
-}
-
 bool World::destroy(Entity entity) {
     check_unlocked("destroy");
     Record* const record = find(entity);
     if (record == nullptr) return false;
-    Table& table = *record->table;
+    Table& table = table_of(*record);
     const uint32_t row = record->row;
     table.erase(row);
     fill_gap(table, row);

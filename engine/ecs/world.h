@@ -8,6 +8,7 @@
 
 #include "engine/ecs/component.h"
 #include "engine/ecs/entity.h"
+#include "engine/ecs/growing_array.h"
 #include "engine/ecs/resources.h"
 #include "engine/ecs/table.h"
 
@@ -90,6 +91,16 @@ class World : public Resources {
         size_t operator()(const std::vector<const ComponentType*>& types) const noexcept;
     };
 
+    /// The record's table. Where it is the table of the previous call, as in most loops, a branch
+    /// predicts so: the processor then works on before the record has come from memory.
+    [[nodiscard]] Table& table_of(const Record& record) noexcept {
+        Table* guess = last_table_;
+        asm("" : "+r"(guess));  // hides that guess equals record.table where the test below holds
+        if (record.table != last_table_) [[unlikely]]
+            guess = last_table_ = record.table;
+        return *guess;
+    }
+
     [[nodiscard]] const Record* find(Entity entity) const noexcept {
         if (entity.index >= records_.size()) return nullptr;
         const Record& record = records_[entity.index];
@@ -107,16 +118,27 @@ class World : public Resources {
     template <class... Ts>
     Table& bundle_table();
     Table& table_of(std::vector<const ComponentType*> types);
-    Table& neighbour(Table& table, const ComponentType& type);
+    Table::Neighbour find_neighbour(Table& table, const ComponentType& type);
     QueryState& register_query(uint32_t index, QueryState state);
 
+    uint32_t append_slots(size_t count);
     uint32_t append_row(Table& table);
     uint32_t append_rows(Table& table, size_t count);
-    uint32_t move_row(Record& record, Table& to);
-    void fill_gap(const Table& table, uint32_t row);
+    uint32_t move_row(Entity entity, Record& record, Table& from, const Table::Neighbour& to) {
+        const uint32_t old_row = record.row;
+        const uint32_t row = from.take_row(entity, old_row, to);
+        record.table = to.table;
+        record.row = row;
+        fill_gap(from, old_row);
+        return row;
+    }
+    void fill_gap(const Table& table, uint32_t row) {
+        if (row < table.size()) records_[table.entities()[row].index].row = row;
+    }
 
-    std::vector<Record> records_;
+    GrowingArray<Record> records_;
     uint32_t first_free_ = UINT32_MAX;
+    Table* last_table_ = nullptr;  // a guess, see table_of
     size_t alive_count_ = 0;
     std::atomic<uint32_t> locks_{0};
     std::vector<std::unique_ptr<Table>> tables_;

@@ -52,14 +52,19 @@ bool World::add(Entity entity, T component) {
     check_unlocked("add");
     Record* const record = find(entity);
     if (record == nullptr) return false;
-    if (T* const column = record->table->column<T>(); column != nullptr) {
-        std::destroy_at(column + record->row);
-        std::construct_at(column + record->row, std::move(component));
-        return true;
+    Table& from = table_of(*record);
+    Table::Neighbour to = from.neighbour(kComponent<T>.id);
+    if (!to.adds) [[unlikely]] {
+        if (T* const column = from.column<T>(); column != nullptr) {
+            std::destroy_at(column + record->row);
+            std::construct_at(column + record->row, std::move(component));
+            return true;
+        }
+        to = find_neighbour(from, kComponent<T>);
     }
-    Table& to = neighbour(*record->table, kComponent<T>);
-    const uint32_t row = move_row(*record, to);
-    std::construct_at(to.column<T>() + row, std::move(component));
+    const uint32_t row = move_row(entity, *record, from, to);
+    std::construct_at(reinterpret_cast<T*>(to.table->slot_data(to.slot)) + row,
+                      std::move(component));
     return true;
 }
 
@@ -67,8 +72,14 @@ template <class T>
 bool World::remove(Entity entity) {
     check_unlocked("remove");
     Record* const record = find(entity);
-    if (record == nullptr || !record->table->has(kComponent<T>.id)) return false;
-    move_row(*record, neighbour(*record->table, kComponent<T>));
+    if (record == nullptr) return false;
+    Table& from = table_of(*record);
+    Table::Neighbour to = from.neighbour(kComponent<T>.id);
+    if (to.adds || to.table == nullptr) [[unlikely]] {
+        if (!from.has(kComponent<T>.id)) return false;
+        to = find_neighbour(from, kComponent<T>);
+    }
+    move_row(entity, *record, from, to);
     return true;
 }
 
