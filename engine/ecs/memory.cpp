@@ -3,6 +3,7 @@
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <cstdlib>
 
@@ -14,12 +15,28 @@ namespace {
 constexpr size_t kHugePage = size_t{2} << 20U;
 constexpr size_t kSmallestMapped = 2 * kHugePage;
 
+// Blocks that all began on a huge page would have equal rows of all columns compete for the same
+// cache sets, and take loads for stores 4 KiB apart. So each begins at another offset into its
+// page.
+constexpr size_t kOffsets = 32;
+constexpr size_t kOffsetStep = 7 * 64;
+
+size_t next_offset() {
+    static std::atomic<size_t> count{0};
+    return count.fetch_add(1, std::memory_order_relaxed) % kOffsets * kOffsetStep;
+}
+
+size_t offset_of(const void* block) {
+    return reinterpret_cast<uintptr_t>(block) % kHugePage;
+}
+
 bool is_mapped(size_t bytes) {
     return bytes >= kSmallestMapped;
 }
 
-size_t round_up(size_t bytes) {
-    return (bytes + kHugePage - 1) / kHugePage * kHugePage;
+/// Of the mapping that holds a block of so many bytes.
+size_t mapped_size(size_t bytes) {
+    return (bytes + kOffsets * kOffsetStep + kHugePage - 1) / kHugePage * kHugePage;
 }
 
 void* checked(void* memory) {
@@ -40,21 +57,24 @@ std::byte* reserve(size_t bytes) {
     return all + head;
 }
 
-void* map(size_t bytes) {
-    void* const place = reserve(bytes);
-    if (mprotect(place, bytes, PROT_READ | PROT_WRITE) != 0) checked(nullptr);
-    madvise(place, bytes, MADV_HUGEPAGE);
-    return place;
+std::byte* map(size_t bytes) {
+    std::byte* const place = reserve(mapped_size(bytes));
+    if (mprotect(place, mapped_size(bytes), PROT_READ | PROT_WRITE) != 0) checked(nullptr);
+    madvise(place, mapped_size(bytes), MADV_HUGEPAGE);
+    return place + next_offset();
 }
 
-void* remap(void* old, size_t old_bytes, size_t bytes) {
-    void* const place = reserve(bytes);
-    return checked(mremap(old, old_bytes, bytes, MREMAP_MAYMOVE | MREMAP_FIXED, place));
+std::byte* remap(std::byte* old, size_t old_bytes, size_t bytes) {
+    if (mapped_size(bytes) == mapped_size(old_bytes)) return old;
+    std::byte* const place = reserve(mapped_size(bytes));
+    checked(mremap(old - offset_of(old), mapped_size(old_bytes), mapped_size(bytes),
+                   MREMAP_MAYMOVE | MREMAP_FIXED, place));
+    return place + offset_of(old);
 }
 
 void release(void* old, size_t old_bytes) {
     if (is_mapped(old_bytes)) {
-        munmap(old, round_up(old_bytes));
+        munmap(static_cast<std::byte*>(old) - offset_of(old), mapped_size(old_bytes));
     } else {
         std::free(old);
     }
@@ -68,11 +88,10 @@ void* resize_memory(void* old, size_t old_bytes, size_t bytes) {
         return nullptr;
     }
     if (is_mapped(bytes) && is_mapped(old_bytes)) {
-        if (round_up(bytes) == round_up(old_bytes)) return old;
-        return remap(old, round_up(old_bytes), round_up(bytes));
+        return remap(static_cast<std::byte*>(old), old_bytes, bytes);
     }
     if (!is_mapped(bytes) && !is_mapped(old_bytes)) return checked(std::realloc(old, bytes));
-    void* const fresh = is_mapped(bytes) ? map(round_up(bytes)) : checked(std::malloc(bytes));
+    void* const fresh = is_mapped(bytes) ? map(bytes) : checked(std::malloc(bytes));
     if (old != nullptr) std::memcpy(fresh, old, std::min(old_bytes, bytes));
     release(old, old_bytes);
     return fresh;
