@@ -107,7 +107,7 @@ bool World::destroy(Entity entity) {
     check_unlocked("destroy");
     Record* const record = find(entity);
     if (record == nullptr) return false;
-    Table& table = table_of(*record);
+    Table& table = current_table(*record);
     const uint32_t row = record->row;
     table.erase(row);
     fill_gap(table, row);

@@ -93,7 +93,7 @@ class World : public Resources {
 
     /// The record's table. Where it is the table of the previous call, as in most loops, a branch
     /// predicts so: the processor then works on before the record has come from memory.
-    [[nodiscard]] Table& table_of(const Record& record) noexcept {
+    [[nodiscard]] Table& current_table(const Record& record) noexcept {
         Table* guess = last_table_;
         asm("" : "+r"(guess));  // hides that guess equals record.table where the test below holds
         if (record.table != last_table_) [[unlikely]]
@@ -138,7 +138,7 @@ class World : public Resources {
 
     GrowingArray<Record> records_;
     uint32_t first_free_ = UINT32_MAX;
-    Table* last_table_ = nullptr;  // a guess, see table_of
+    Table* last_table_ = nullptr;  // a guess, see current_table
     size_t alive_count_ = 0;
     std::atomic<uint32_t> locks_{0};
     std::vector<std::unique_ptr<Table>> tables_;

@@ -52,7 +52,7 @@ bool World::add(Entity entity, T component) {
     check_unlocked("add");
     Record* const record = find(entity);
     if (record == nullptr) return false;
-    Table& from = table_of(*record);
+    Table& from = current_table(*record);
     Table::Neighbour to = from.neighbour(kComponent<T>.id);
     if (!to.adds) [[unlikely]] {
         if (T* const column = from.column<T>(); column != nullptr) {
@@ -73,7 +73,7 @@ bool World::remove(Entity entity) {
     check_unlocked("remove");
     Record* const record = find(entity);
     if (record == nullptr) return false;
-    Table& from = table_of(*record);
+    Table& from = current_table(*record);
     Table::Neighbour to = from.neighbour(kComponent<T>.id);
     if (to.adds || to.table == nullptr) [[unlikely]] {
         if (!from.has(kComponent<T>.id)) return false;
