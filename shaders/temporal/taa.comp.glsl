@@ -23,7 +23,7 @@ void load_tile() {
     ivec2 corner = ivec2(gl_WorkGroupID.xy) * ivec2(kTileX, kTileY) - 1;
     for (uint i = gl_LocalInvocationIndex; i < tile.length(); i += kTileX * kTileY) {
         ivec2 at = clamp(corner + ivec2(i % (kTileX + 2), i / (kTileX + 2)), ivec2(0), size - 1);
-        tile[i] = rgb_to_ycocg(taa_sanitize(texelFetch(color, at, 0).rgb));
+        tile[i] = taa_load(texelFetch(color, at, 0).rgb);
     }
     barrier();
 }

@@ -1,7 +1,8 @@
 // Temporal antialiasing: resolve of one pixel, without texture access.
 // Sources: B. Karis, "High Quality Temporal Supersampling", SIGGRAPH 2014 (YCoCg box, clip, luminance
 // weight); J. Jimenez, "Filmic SMAA", SIGGRAPH 2016 (Catmull-Rom in five taps).
-// Colours are pre-exposed linear RGB; every texel read goes through taa_sanitize first.
+// Colours are pre-exposed linear RGB. Texels of the frame go through taa_load, which marks garbage so that it
+// enters neither box nor history; texels of the history through taa_sanitize.
 #ifndef VELLUS_TEMPORAL_TAA_GLSL
 #define VELLUS_TEMPORAL_TAA_GLSL
 #include "common/portable.glsl"
@@ -23,26 +24,38 @@ VELLUS_FN vec3 ycocg_to_rgb(vec3 c) {
     return vec3(t + c.y, c.x + c.z, t - c.y);
 }
 
-/// Bounds of the neighbourhood in YCoCg; start with taa_box_start, add each tap.
+/// A texel of the current frame in YCoCg; NaN, infinity and what no half float holds are marked by Y = -1.
+VELLUS_FN vec3 taa_load(vec3 c) {
+    bool usable = is_finite(c) && max(abs(c.x), max(abs(c.y), abs(c.z))) < 65000.0f;
+    return usable ? rgb_to_ycocg(clamp(c, vec3(0.0f), vec3(kTaaMax))) : vec3(-1.0f, 0.0f, 0.0f);
+}
+
+VELLUS_FN bool taa_is_usable(vec3 ycocg) { return ycocg.x >= 0.0f; }
+
+/// Bounds of the neighbourhood in YCoCg: start with taa_box_start, add each tap. Marked taps do not count;
+/// where all are marked the box is empty (low above high).
 struct TaaBox {
     vec3 low;
     vec3 high;
 };
 
+VELLUS_FN void taa_box_add(VELLUS_INOUT(TaaBox) box, vec3 ycocg) {
+    bool usable = taa_is_usable(ycocg);
+    box.low = min(box.low, usable ? ycocg : vec3(1.0e30f));
+    box.high = max(box.high, usable ? ycocg : vec3(-1.0e30f));
+}
+
 VELLUS_FN TaaBox taa_box_start(vec3 ycocg) {
     TaaBox box;
-    box.low = ycocg;
-    box.high = ycocg;
+    box.low = vec3(1.0e30f);
+    box.high = vec3(-1.0e30f);
+    taa_box_add(box, ycocg);
     return box;
 }
 
-VELLUS_FN void taa_box_add(VELLUS_INOUT(TaaBox) box, vec3 ycocg) {
-    box.low = min(box.low, ycocg);
-    box.high = max(box.high, ycocg);
-}
-
-/// Moves `history` towards the centre of the box until it lies inside (line-box clip).
+/// Moves `history` towards the centre of the box until it lies inside (line-box clip); an empty box leaves it.
 VELLUS_FN vec3 taa_clip(TaaBox box, vec3 history) {
+    if (box.low.x > box.high.x) return history;
     vec3 centre = 0.5f * (box.low + box.high);
     vec3 extent = 0.5f * (box.high - box.low) + vec3(1.0e-5f);
     vec3 offset = history - centre;
@@ -53,8 +66,12 @@ VELLUS_FN vec3 taa_clip(TaaBox box, vec3 history) {
 VELLUS_FN float taa_weight(float luma) { return 1.0f / (1.0f + max(luma, 0.0f)); }
 
 /// New history, linear RGB. `current` and `history` are YCoCg, `history` already clipped; `blend` in
-/// [0, 1] is the share of the current frame: 1 where there is no history.
+/// [0, 1] is the share of the current frame: 1 where there is no history. A marked `current` leaves the
+/// history as it is, or black where there is none.
 VELLUS_FN vec3 taa_resolve(vec3 current, vec3 history, float blend) {
+    if (!taa_is_usable(current)) {
+        return blend < 1.0f ? max(ycocg_to_rgb(history), vec3(0.0f)) : vec3(0.0f);
+    }
     float wc = blend * taa_weight(current.x);
     float wh = (1.0f - blend) * taa_weight(history.x);
     return max(ycocg_to_rgb(mix(history, current, wc / (wc + wh))), vec3(0.0f));

@@ -44,11 +44,11 @@ VELLUS_FN HairSurface probe_surface(ProbeInput p) {
 }
 
 VELLUS_FN vec3 probe_taa(ProbeInput p) {
-    vec3 current = taa_sanitize(p.color);
-    vec3 history = rgb_to_ycocg(taa_sanitize(p.history));
-    TaaBox box = taa_box_start(rgb_to_ycocg(current));
-    taa_box_add(box, rgb_to_ycocg(current * 0.5f));
-    return taa_resolve(rgb_to_ycocg(current), taa_clip(box, history), p.blend);
+    vec3 current = taa_load(p.history);
+    TaaBox box = taa_box_start(current);
+    taa_box_add(box, taa_load(p.color));
+    vec3 history = taa_clip(box, rgb_to_ycocg(taa_sanitize(p.to_view)));
+    return taa_resolve(current, history, p.blend);
 }
 
 VELLUS_FN vec3 probe_sh(ProbeInput p, vec3 n) {

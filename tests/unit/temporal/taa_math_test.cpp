@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "modules/temporal/jitter.h"
+#include "modules/temporal/taa.h"
+#include "tests/support/sampling.h"
+
+namespace vellus::temporal {
+namespace {
+
+glm::vec3 random_color(test::Random& random) {
+    return {random.unit(), random.unit(), random.unit()};
+}
+
+TEST(Taa, YCoCgAndBack) {
+    for (uint64_t i = 0; i < 10000; ++i) {
+        test::Random random(1, i);
+        const glm::vec3 c = random_color(random);
+        EXPECT_LT(glm::length(glsl::ycocg_to_rgb(glsl::rgb_to_ycocg(c)) - c), 3e-7f);
+    }
+    // White has no chroma, and Y is its luma.
+    EXPECT_EQ(glsl::rgb_to_ycocg(glm::vec3(1.0f)), glm::vec3(1.0f, 0.0f, 0.0f));
+}
+
+TEST(Taa, ClipEndsOnTheLineToTheCentreInsideTheBox) {
+    for (uint64_t i = 0; i < 100'000; ++i) {
+        test::Random random(2, i);
+        glsl::TaaBox box = glsl::taa_box_start(random_color(random));
+        glsl::taa_box_add(box, random_color(random));
+        const glm::vec3 history = random_color(random) * 4.0f - 1.5f;
+        const glm::vec3 clipped = glsl::taa_clip(box, history);
+        const glm::vec3 centre = 0.5f * (box.low + box.high);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_GE(clipped[c], box.low[c] - 2e-5f);
+            EXPECT_LE(clipped[c], box.high[c] + 2e-5f);
+        }
+        const glm::vec3 way = history - centre;
+        EXPECT_LT(glm::length(glm::cross(clipped - centre, way)),
+                  1e-5f * (1.0f + glm::dot(way, way)));
+        const bool inside =
+            glm::all(glm::lessThanEqual(glm::abs(way), 0.5f * (box.high - box.low)));
+        if (inside) {
+            EXPECT_LT(glm::length(clipped - history), 1e-6f);
+        }
+    }
+}
+
+TEST(Taa, ResolveWeighsByLuminance) {
+    // Karis 2014: Σ w c / Σ w with w = share / (1 + luma); grey of 1 against grey of 3, half and
+    // half.
+    const glm::vec3 value = glsl::taa_resolve({1, 0, 0}, {3, 0, 0}, 0.5f);
+    EXPECT_NEAR(value.x, (1.0 / 2.0 + 3.0 / 4.0) / (1.0 / 2.0 + 1.0 / 4.0), 1e-6);
+    EXPECT_EQ(glsl::taa_blend({0.5f, 0.5f}, 0.1f), 0.1f);
+    EXPECT_EQ(glsl::taa_blend({-0.01f, 0.5f}, 0.1f), 1.0f);
+}
+
+TEST(Taa, CatmullRomKeepsLinesExactly) {
+    // The five taps of a linear ramp, each bilinear, return the ramp; dropping the corners only
+    // rescales.
+    const glm::vec2 size(64.0f, 32.0f);
+    for (uint64_t i = 0; i < 1000; ++i) {
+        test::Random random(3, i);
+        const glm::vec2 uv(random.range(0.1, 0.9), random.range(0.1, 0.9));
+        const glsl::TaaTaps t = glsl::taa_catmull_rom(uv, size);
+        const auto ramp = [](float u) { return 3.0 * u + 1.0; };
+        const double sum =
+            t.weight_up + t.weight_left + t.weight_centre + t.weight_right + t.weight_down;
+        const double x = (t.weight_up * ramp(t.uv12.x) + t.weight_left * ramp(t.uv0.x) +
+                          t.weight_centre * ramp(t.uv12.x) + t.weight_right * ramp(t.uv3.x) +
+                          t.weight_down * ramp(t.uv12.x)) /
+                         sum;
+        // The corners carry at most 2 × .07² of the weight, over at most two texels.
+        EXPECT_NEAR(x, ramp(uv.x), 3.0 * 2.0 / size.x * 0.02);
+        EXPECT_NEAR(sum, 1.0, 0.02);
+    }
+}
+
+TEST(Jitter, CoversThePixelEvenly) {
+    glm::dvec2 mean(0.0);
+    int seen[4][4] = {};
+    for (uint32_t frame = 0; frame < 16; ++frame) {
+        const glm::vec2 j = halton_jitter(frame);
+        EXPECT_LT(std::max(std::abs(j.x), std::abs(j.y)), 0.5f);
+        mean += glm::dvec2(j) / 16.0;
+        ++seen[static_cast<int>((j.x + 0.5f) * 4.0f)][static_cast<int>((j.y + 0.5f) * 4.0f)];
+        EXPECT_EQ(halton_jitter(frame + 16), j);
+    }
+    EXPECT_LT(glm::length(mean), 0.05);
+    int empty = 0;
+    for (const auto& row : seen) {
+        for (const int count : row) empty += count == 0;
+    }
+    // 16 Halton points leave 3 of 16 cells empty; 16 random ones 5.7.
+    EXPECT_LE(empty, 4);
+    EXPECT_DOUBLE_EQ(radical_inverse(6, 2), 0.375);
+    EXPECT_DOUBLE_EQ(radical_inverse(5, 3), 2.0 / 3.0 + 1.0 / 9.0);
+}
+
+}  // namespace
+}  // namespace vellus::temporal
