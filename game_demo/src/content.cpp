@@ -5,6 +5,7 @@
 #include "engine/asset/gltf.h"
 #include "engine/platform/log.h"
 #include "modules/character/components.h"
+#include "modules/character/mesh_library.h"
 #include "modules/hair/components.h"
 #include "modules/hair/spawn.h"
 #include "modules/light/load_environment.h"
@@ -54,6 +55,9 @@ Result<void> load_scene(World& world, gpu::Device& device,
     for (const std::string& warning : scene->warnings) log_warning("{}", warning);
     auto instance = scene::instantiate(world, scene);
     if (!instance) return instance.error();
+    auto meshes = world.resource<character::MeshLibrary>().update(
+        device, world.resource<scene::SceneLibrary>());
+    if (!meshes) return meshes;
     if (auto hair = hair::spawn_scene_hair(world, device, *instance); !hair) return hair;
     if (!scene->animations.empty()) {
         const Entity root = world.resource<scene::SceneLibrary>().instances[*instance].root;

@@ -82,6 +82,7 @@ Result<void> Renderer::register_modules() {
     scene::register_scene(world_, schedule_);
     character::register_character(world_, schedule_);
     light::register_light(world_, schedule_);
+    character::register_character_passes(world_, schedule_);
     hair::register_hair(world_, schedule_);
     temporal::register_temporal(world_, schedule_);
     display::register_display(world_, schedule_);
