@@ -75,7 +75,7 @@ struct CompileState {
         return all_live ? graph->versions()[version].writer : live_writer[version];
     }
 
-    void report(Problem problem, uint32_t pass, uint32_t resource, std::source_location where,
+    void report(Problem problem, uint32_t pass, uint32_t resource, SourceLine where,
                 uint32_t other = kNoIndex) const {
         diagnostics->push_back({problem, pass, resource, other, where});
     }

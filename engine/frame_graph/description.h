@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <new>
-#include <source_location>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -21,7 +20,7 @@ class GraphDescription;
 /// Declares what one pass touches and the commands it records. Valid until the next reset().
 class PassBuilder {
   public:
-    using Where = std::source_location;
+    using Where = SourceLine;
 
     /// The pass reads this version.
     void read(ImageHandle image, Access access, const ImageRange& range = {},
@@ -62,7 +61,7 @@ class PassBuilder {
 /// Names are not copied: pass literals, or text().
 class GraphDescription {
   public:
-    using Where = std::source_location;
+    using Where = SourceLine;
 
     ImageHandle create_image(std::string_view name, const ImageDesc& desc,
                              Where = Where::current());

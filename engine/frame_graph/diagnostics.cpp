@@ -60,12 +60,11 @@ std::string sentence(const GraphDescription& graph, const Diagnostic& d) {
 }  // namespace
 
 std::string describe(const GraphDescription& graph, const Diagnostic& diagnostic) {
-    const std::string file =
-        std::filesystem::path(diagnostic.where.file_name()).filename().string();
+    const std::string file = std::filesystem::path(diagnostic.where.file).filename().string();
     const std::string pass = diagnostic.pass < graph.passes().size()
                                  ? fmt::format("pass '{}'", graph.passes()[diagnostic.pass].name)
                                  : "the graph";
-    return fmt::format("{}:{}: {}: {}", file, diagnostic.where.line(), pass,
+    return fmt::format("{}:{}: {}: {}", file, diagnostic.where.line, pass,
                        sentence(graph, diagnostic));
 }
 

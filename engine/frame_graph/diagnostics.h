@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <source_location>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "engine/frame_graph/types.h"
 
 namespace vellus::graph {
 
@@ -30,7 +31,7 @@ struct Diagnostic {
     uint32_t pass = ~0U;
     uint32_t resource = ~0U;
     uint32_t other_pass = ~0U;
-    std::source_location where;
+    SourceLine where;
 };
 
 using Diagnostics = std::vector<Diagnostic>;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <source_location>
 #include <string_view>
 
 #include "engine/frame_graph/types.h"
@@ -29,7 +28,7 @@ struct ResourceRecord {
     void* external = nullptr;   ///< gpu::Image* or gpu::Buffer*
     uint64_t native_image = 0;  ///< VkImage, where there is no gpu::Image
     uint64_t native_view = 0;
-    std::source_location where{};
+    SourceLine where;
 };
 
 /// One value of a resource. The chain previous/next orders the writers.
@@ -49,7 +48,7 @@ struct PassRecord {
     uint32_t access_count = 0;
     const void* closure = nullptr;
     void (*record)(const void* closure, PassContext& context) = nullptr;
-    std::source_location where{};
+    SourceLine where;
 };
 
 struct AccessRecord {
@@ -63,12 +62,12 @@ struct AccessRecord {
     Load load = Load::kKeep;
     bool image = false;  ///< or buffer
     bool whole = true;   ///< the range is all of the resource
-    std::source_location where{};
+    SourceLine where;
 };
 
 struct OutputRecord {
     uint32_t version = kNoIndex;
-    std::source_location where{};
+    SourceLine where;
 };
 
 }  // namespace vellus::graph
