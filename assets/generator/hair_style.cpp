@@ -78,7 +78,8 @@ Strand trace(const Root& root, uint32_t key, double length) {
     const double lift = 0.30 + 0.25 * near_parting * smoothstep(0.085, 0.06, p.z);
     dvec3 direction = glm::normalize(root.normal * lift + root.comb * 0.8);
     Strand strand{p};
-    for (double s = 0.0; s < length; s += kStep) {
+    double s = 0.0;
+    while (s < length) {
         const dvec3 wanted = desired_direction(root, p, s, lock);
         direction = glm::normalize(glm::mix(direction, wanted, 0.16));
         dvec3 next = p + direction * kStep;
@@ -87,6 +88,7 @@ Strand trace(const Root& root, uint32_t key, double length) {
         direction = glm::normalize(next - p);
         p += direction * kStep;
         strand.push_back(p);
+        s += kStep;
     }
     return strand;
 }

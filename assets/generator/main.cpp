@@ -1,11 +1,12 @@
 #include <CLI/CLI.hpp>
+#include <exception>
 #include <filesystem>
 
 #include "assets/generator/asset_files.h"
 #include "engine/platform/files.h"
 #include "engine/platform/log.h"
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
     CLI::App app(
         "Makes the project's own assets: a sculpted bust, its hair, and the default scene.");
     std::filesystem::path folder = VELLUS_ASSET_DIR;
@@ -26,4 +27,7 @@ int main(int argc, char** argv) {
         vellus::log_info("{}: {} bytes", (folder / file.path).string(), file.bytes.size());
     }
     return 0;
+} catch (const std::exception& exception) {
+    vellus::log_error("{}", exception.what());
+    return 1;
 }

@@ -62,7 +62,7 @@ glm::dquat facing(dvec3 direction) {
 }
 
 uint16_t unorm16(double x) {
-    return static_cast<uint16_t>(std::clamp(x, 0.0, 1.0) * 65535.0 + 0.5);
+    return static_cast<uint16_t>(std::lround(std::clamp(x, 0.0, 1.0) * 65535.0));
 }
 
 /// Shares as 16-bit numbers that add up to one exactly.
