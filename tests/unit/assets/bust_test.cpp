@@ -65,7 +65,8 @@ TEST(Bust, VerticesLieOnTheSculptedSurface) {
 TEST(Bust, HeadHasHumanProportions) {
     const auto extent = [](glm::dvec3 from, glm::dvec3 direction) {
         double far = 0.0;
-        for (double t = 0.0; t < 0.16; t += 1e-4) {
+        for (int step = 0; step < 1600; ++step) {
+            const double t = step * 1e-4;
             far = skin_distance(from + direction * t) < 0.0 ? t : far;
         }
         return far;
