@@ -3,7 +3,7 @@
 namespace vellus::gpu {
 
 namespace {
-constexpr size_t kMaxImages = 16;
+constexpr size_t kMaxBindings = 16;
 }
 
 void CommandBuffer::bind(const Pipeline& pipeline) {
@@ -11,28 +11,39 @@ void CommandBuffer::bind(const Pipeline& pipeline) {
     vkCmdBindPipeline(handle_, pipeline.bind_point, pipeline.handle);
 }
 
-void CommandBuffer::images(std::initializer_list<VkImageView> views) {
-    images(std::span(views.begin(), views.size()));
+void CommandBuffer::images(std::initializer_list<VkImageView> views,
+                           std::initializer_list<UniformSlice> uniforms) {
+    images(std::span(views.begin(), views.size()), std::span(uniforms.begin(), uniforms.size()));
 }
 
-void CommandBuffer::images(std::span<const VkImageView> views) {
-    assert(pipeline_ && views.size() == pipeline_->bindings.size() && views.size() <= kMaxImages);
-    VkDescriptorImageInfo infos[kMaxImages];
-    VkWriteDescriptorSet writes[kMaxImages];
-    for (uint32_t slot = 0; slot < views.size(); ++slot) {
-        const bool storage = pipeline_->bindings[slot] == Binding::kStorage;
-        infos[slot] = {.imageView = views[slot],
-                       .imageLayout = storage ? VK_IMAGE_LAYOUT_GENERAL
-                                              : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+void CommandBuffer::images(std::span<const VkImageView> views,
+                           std::span<const UniformSlice> uniforms) {
+    const size_t count = views.size() + uniforms.size();
+    assert(pipeline_ && count == pipeline_->bindings.size() && count <= kMaxBindings);
+    VkDescriptorImageInfo images[kMaxBindings];
+    VkDescriptorBufferInfo buffers[kMaxBindings];
+    VkWriteDescriptorSet writes[kMaxBindings];
+    for (uint32_t slot = 0; slot < count; ++slot) {
+        const Binding binding = pipeline_->bindings[slot];
+        assert((binding == Binding::kUniform) == (slot >= views.size()));
         writes[slot] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                         .dstBinding = slot,
                         .descriptorCount = 1,
-                        .descriptorType = storage ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-                                                  : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                        .pImageInfo = &infos[slot]};
+                        .descriptorType = descriptor_type(binding)};
+        if (binding == Binding::kUniform) {
+            const UniformSlice& slice = uniforms[slot - views.size()];
+            buffers[slot] = {slice.buffer, slice.offset, slice.bytes};
+            writes[slot].pBufferInfo = &buffers[slot];
+        } else {
+            images[slot] = {.imageView = views[slot],
+                            .imageLayout = binding == Binding::kStorage
+                                               ? VK_IMAGE_LAYOUT_GENERAL
+                                               : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+            writes[slot].pImageInfo = &images[slot];
+        }
     }
     vkCmdPushDescriptorSetKHR(handle_, pipeline_->bind_point, pipeline_->layout, 0,
-                              static_cast<uint32_t>(views.size()), writes);
+                              static_cast<uint32_t>(count), writes);
 }
 
 void CommandBuffer::push_bytes(const void* bytes, uint32_t size) {

@@ -8,6 +8,13 @@
 
 namespace vellus::gpu {
 
+/// Part of a buffer that a shader sees as a uniform block.
+struct UniformSlice {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    uint64_t offset = 0;
+    uint64_t bytes = 0;
+};
+
 /// Records into one command buffer and counts what a pass does; a view, cheap to pass around.
 class CommandBuffer {
   public:
@@ -18,9 +25,11 @@ class CommandBuffer {
     [[nodiscard]] uint32_t dispatches() const { return dispatches_; }
 
     void bind(const Pipeline& pipeline);
-    /// The pass's images in binding order; depth and sampled images must be in a read layout.
-    void images(std::initializer_list<VkImageView> views);
-    void images(std::span<const VkImageView> views);
+    /// The pass's images in binding order, then its uniform blocks; depth and sampled images must
+    /// be in a read layout.
+    void images(std::initializer_list<VkImageView> views,
+                std::initializer_list<UniformSlice> uniforms = {});
+    void images(std::span<const VkImageView> views, std::span<const UniformSlice> uniforms = {});
     /// Push constants; T must be as long as the pipeline's `push_bytes`.
     template <class T>
     void push(const T& constants) {

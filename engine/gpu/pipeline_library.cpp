@@ -45,6 +45,17 @@ struct Module {
 
 }  // namespace
 
+VkDescriptorType descriptor_type(Binding binding) {
+    switch (binding) {
+        case Binding::kStorage:
+            return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        case Binding::kUniform:
+            return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+        default:
+            return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    }
+}
+
 PipelineLibrary::PipelineLibrary(Device& device) : device_(device) {
     VkDevice handle = device.handle();
     samplers_ = {make_sampler(handle, VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE),
@@ -94,14 +105,14 @@ Result<PipelineLibrary::Layouts> PipelineLibrary::make_layouts(const std::vector
                                                                const std::string& name) {
     std::vector<VkDescriptorSetLayoutBinding> slots;
     for (uint32_t slot = 0; slot < bindings.size(); ++slot) {
-        const bool storage = bindings[slot] == Binding::kStorage;
+        const VkDescriptorType type = descriptor_type(bindings[slot]);
+        const bool sampled = type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
         slots.push_back({.binding = slot,
-                         .descriptorType = storage ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-                                                   : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                         .descriptorType = type,
                          .descriptorCount = 1,
                          .stageFlags = stages,
                          .pImmutableSamplers =
-                             storage ? nullptr : &samplers_[static_cast<size_t>(bindings[slot])]});
+                             sampled ? &samplers_[static_cast<size_t>(bindings[slot])] : nullptr});
     }
     const VkDescriptorSetLayoutCreateInfo set{
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,

@@ -11,13 +11,16 @@
 
 namespace vellus::gpu {
 
-/// How a shader sees the N-th image of its pass (set 0, binding N); samplers are baked in.
+/// How a shader sees the N-th resource of its pass (set 0, binding N); samplers are baked in.
 enum class Binding : uint8_t {
     kSampledNearest,  ///< sampler2D, nearest, clamped to the edge
     kSampledLinear,   ///< sampler2D, linear, clamped to the edge
     kSampledRepeat,   ///< sampler2D, linear, repeating
     kStorage,         ///< image2D
+    kUniform,         ///< uniform block: small data that all threads read at the same place
 };
+
+VkDescriptorType descriptor_type(Binding binding);
 
 struct ComputeInfo {
     std::string shader;  ///< path below shaders/

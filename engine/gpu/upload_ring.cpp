@@ -4,6 +4,11 @@
 
 namespace vellus::gpu {
 
+namespace {
+// The largest minUniformBufferOffsetAlignment Vulkan allows.
+constexpr uint64_t kAlignment = 256;
+}  // namespace
+
 Result<UploadRing> UploadRing::create(Device& device, uint64_t bytes_per_frame, uint32_t frames) {
     auto buffer = Buffer::create(device, bytes_per_frame * frames, MemoryKind::kUpload, "uploads");
     if (!buffer) return buffer.error();
@@ -26,7 +31,7 @@ VkDeviceAddress UploadRing::push_bytes(std::span<const std::byte> bytes) {
     }
     const uint64_t offset = frame_ * bytes_per_frame_ + used_;
     std::memcpy(buffer_.mapped() + offset, bytes.data(), bytes.size());
-    used_ += (bytes.size() + 15) / 16 * 16;
+    used_ += (bytes.size() + kAlignment - 1) / kAlignment * kAlignment;
     return buffer_.address() + offset;
 }
 

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "engine/gpu/buffer.h"
+#include "engine/gpu/command_buffer.h"
 
 namespace vellus::gpu {
 
@@ -16,7 +17,8 @@ class UploadRing {
 
     /// Starts the next frame; what was pushed `frames` frames ago is overwritten.
     void begin_frame();
-    /// Address of a copy of `values`, aligned to 16 bytes; 0 where the frame's memory is used up.
+    /// Address of a copy of `values`, aligned to 256 bytes (what uniform blocks may ask for); 0
+    /// where the frame's memory is used up.
     template <class T>
     [[nodiscard]] VkDeviceAddress push_span(std::span<const T> values) {
         return push_bytes(std::as_bytes(values));
@@ -24,6 +26,15 @@ class UploadRing {
     template <class T>
     [[nodiscard]] VkDeviceAddress push(const T& value) {
         return push_bytes(std::as_bytes(std::span(&value, 1)));
+    }
+    /// The same as a uniform block.
+    template <class T>
+    [[nodiscard]] UniformSlice push_uniform(const T& value) {
+        const VkDeviceAddress address = push(value);
+        return {buffer_.handle(), address == 0 ? 0 : address - buffer_.address(), sizeof(T)};
+    }
+    [[nodiscard]] VkDeviceAddress address(const UniformSlice& slice) const {
+        return buffer_.address() + slice.offset;
     }
     [[nodiscard]] uint64_t bytes() const { return buffer_.bytes(); }
 

@@ -9,7 +9,6 @@ namespace vellus::light {
 namespace {
 
 struct SkyPush {
-    VkDeviceAddress view;
     float intensity;
     float rotation_sin;
     float rotation_cos;
@@ -46,7 +45,7 @@ void describe_sky(Res<const Environment> environment, Res<SkyPipeline> sky,
             return gpu::RasterInfo{
                 .vertex_shader = "light/sky.vert.glsl",
                 .fragment_shader = "light/sky.frag.glsl",
-                .bindings = {gpu::Binding::kSampledRepeat},
+                .bindings = {gpu::Binding::kSampledRepeat, gpu::Binding::kUniform},
                 .push_bytes = sizeof(SkyPush),
                 .color_formats = {gpu::Format::kRgba16Float, gpu::Format::kRg16Float},
                 .depth_format = gpu::Format::kD32Float,
@@ -58,13 +57,13 @@ void describe_sky(Res<const Environment> environment, Res<SkyPipeline> sky,
     frame->color = pass.color(frame->color);
     frame->velocity = pass.color(frame->velocity);
     pass.read(frame->depth, graph::Access::kDepthReadOnly);
-    const SkyPush push{frame->view, environment->intensity, std::sin(environment->rotation),
+    const SkyPush push{environment->intensity, std::sin(environment->rotation),
                        std::cos(environment->rotation), 0.0f};
-    pass.execute([push, pipeline = sky->pipeline,
+    pass.execute([push, view = frame->view_block, pipeline = sky->pipeline,
                   image = environment->image.view()](graph::PassContext& context) {
         gpu::CommandBuffer& commands = context.commands();
         commands.bind(*pipeline);
-        commands.images({image});
+        commands.images({image}, {view});
         commands.push(push);
         commands.draw(3);
     });

@@ -166,7 +166,8 @@ void describe_shadow_atlas(Res<const LightSet> set, Res<const ShadowSettings> se
 }
 
 void upload_lights(Res<const LightSet> set, Res<scene::RenderFrame> frame) {
-    frame->lights = frame->uploads.push(set->block);
+    frame->lights_block = frame->uploads.push_uniform(set->block);
+    frame->lights = frame->uploads.address(frame->lights_block);
 }
 
 }  // namespace vellus::light

@@ -42,7 +42,7 @@ Entity spawn_sun(World& world, const Sky& sky) {
     const glm::quat turn = glm::rotation(glm::vec3(0.0f, 0.0f, 1.0f), sun.to_sun);
     return world.spawn(
         scene::LocalTransform{.rotation = turn}, scene::WorldTransform{},
-                       scene::PreviousWorldTransform{},
+        scene::PreviousWorldTransform{},
         scene::Light{
             .kind = asset::LightKind::kDirectional, .color = sun.irradiance, .intensity = 1.0f});
 }

@@ -24,7 +24,9 @@ void begin_frame(Res<const ViewState> state, Res<RenderFrame> frame) {
     frame->size = view.size;
     frame->frame_index = view.frame_index + view.seed;
     frame->pixel_angle = view.pixel_angle;
-    frame->view = frame->uploads.push(view);
+    frame->view_block = frame->uploads.push_uniform(view);
+    frame->view = frame->uploads.address(frame->view_block);
+    frame->lights_block = {};
     frame->lights = 0;
     frame->opaque_shadows = {};
     frame->hair_shadows = {};

@@ -24,9 +24,11 @@ struct RenderFrame {
 
     glm::uvec2 size{0};
     uint32_t frame_index = 0;
-    float pixel_angle = 0.0f;    ///< width of a pixel at 1 m, metres
-    VkDeviceAddress view = 0;    ///< scene::View
-    VkDeviceAddress lights = 0;  ///< light::LightBlock
+    float pixel_angle = 0.0f;        ///< width of a pixel at 1 m, metres
+    VkDeviceAddress view = 0;        ///< scene::View
+    VkDeviceAddress lights = 0;      ///< light::LightBlock
+    gpu::UniformSlice view_block;    ///< the same two as uniform blocks, which a CPU device reads
+    gpu::UniformSlice lights_block;  ///< once for all lanes
 
     graph::ImageHandle color;           ///< linear HDR, RGBA16F
     graph::ImageHandle velocity;        ///< pixels since last frame, RG16F

@@ -44,8 +44,8 @@ void main() {
     vec3 n = normalize(normal) * (gl_FrontFacing ? front_flip : back_flip);
     vec3 to_view = -normalize(position);
     vec3 radiance = emissive;
-    for (uint i = 0; i < lights.count; ++i) {
-        PunctualLight light = lights.light[i];
+    for (uint i = 0; i < lights.block.count; ++i) {
+        PunctualLight light = lights.block.light[i];
         vec3 to_light;
         vec3 irradiance = light_irradiance(light, position, to_light);
         vec3 reflected = pbr_direct(surface, n, to_light, to_view) * irradiance;
@@ -54,8 +54,8 @@ void main() {
         }
     }
     radiance += pbr_environment(surface, dot(n, to_view),
-                                sh_irradiance_over_pi(lights.environment, n),
-                                sh_irradiance_over_pi(lights.environment, reflect(-to_view, n)));
+                                sh_irradiance_over_pi(lights.block.environment, n),
+                                sh_irradiance_over_pi(lights.block.environment, reflect(-to_view, n)));
     out_color = vec4(min(radiance, vec3(60000.0)), 1.0);
     vec2 pixel = gl_FragCoord.xy - view_block.view.jitter;
     vec2 previous = (previous_clip.xy / previous_clip.z * 0.5 + 0.5) * vec2(view_block.view.size);

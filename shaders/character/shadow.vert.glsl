@@ -11,6 +11,6 @@ layout(push_constant, scalar) uniform Push {
 };
 
 void main() {
-    gl_Position = lights.light[light_index].to_shadow *
+    gl_Position = lights.block.light[light_index].to_shadow *
                   vec4(vertices.at[gl_VertexIndex].position, 1.0);
 }

@@ -29,13 +29,14 @@ struct PunctualLight {
     HairDepths hair_depth;  // reversed depth of the closest hair, float bits, row by row; 0: no hair
 };
 
-layout(buffer_reference, scalar) readonly buffer Lights {
+struct LightBlock {
     uint count;
     uint tiles;  // shadow tiles side by side in the atlas
     Sh9 environment;
     uint opaque_casters;  // 0: nothing is in the atlas
     PunctualLight light[4];
 };
+layout(buffer_reference, scalar) readonly buffer Lights { LightBlock block; };
 
 /// Irradiance across the beam at `p`, and the unit direction towards the light.
 vec3 light_irradiance(PunctualLight light, vec3 p, out vec3 to_light) {

@@ -1,25 +1,22 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 #include "common/view.glsl"
 #include "light/equirect.glsl"
 
 // The environment image where nothing opaque was drawn, and how far it moved.
-layout(buffer_reference, scalar) readonly buffer Views { View view; };
 layout(push_constant, scalar) uniform Push {
-    Views views;
     float intensity;
     float rotation_sin;
     float rotation_cos;
     float blur_lod;
 };
 layout(binding = 0) uniform sampler2D sky;
+layout(binding = 1, scalar) uniform Views { View view; };
 layout(location = 0) out vec4 color;
 layout(location = 1) out vec2 velocity;
 
 void main() {
-    View view = views.view;
     vec3 ray = view_ray(view, gl_FragCoord.xy);
     // The image turns counter-clockwise, so the direction looked up turns back.
     vec3 d = vec3(rotation_cos * ray.x - rotation_sin * ray.z, ray.y,

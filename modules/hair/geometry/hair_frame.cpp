@@ -23,6 +23,24 @@ bool in_view(const scene::Box& box, const scene::ViewState& view) {
     return std::ranges::none_of(beyond, [](int corners) { return corners == 8; });
 }
 
+/// Pixels that the box may touch; all where it reaches behind the camera.
+PixelRect pixels_of(const scene::Box& box, const scene::ViewState& view) {
+    const glm::vec2 size(view.view.size);
+    glm::vec2 low(size);
+    glm::vec2 high(0.0f);
+    for (const glm::dvec3& corner : box.corners()) {
+        const glm::vec4 clip = view.view.view_projection * glm::vec4(view.relative(corner), 1.0f);
+        if (clip.w <= view.view.near_plane) return {glm::ivec2(0), glm::ivec2(view.view.size)};
+        const glm::vec2 pixel = (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * size;
+        low = glm::min(low, pixel);
+        high = glm::max(high, pixel);
+    }
+    // A strand at the edge of the box is up to half its width and a pixel outside.
+    low = glm::clamp(low - 2.0f, glm::vec2(0.0f), size);
+    high = glm::clamp(high + 2.0f, glm::vec2(0.0f), size);
+    return {glm::ivec2(low), glm::ivec2(glm::ceil(high))};
+}
+
 HairEffects plan(const Hair& hair, const LibraryGroom& groom, const HairMaterial& material,
                  const HairTechniques& chosen, bool visible, const light::LightBlock& lights) {
     HairEffects effects{.groom = hair.groom, .techniques = chosen};
@@ -75,7 +93,9 @@ HairDraw describe_draw(const LibraryGroom& groom, const glm::dmat4& world,
             .tip_scale = width.tip_scale,
             .scale = static_cast<float>(std::cbrt(volume)),
             .alpha = material.alpha,
-            .opacity = techniques.opacity};
+            .opacity = techniques.opacity,
+            .shadowed = techniques.shadow == ShadowTechnique::kPcfExponential,
+            .environment_lit = techniques.environment == EnvironmentTechnique::kSh};
 }
 
 HairInstance describe_instance(const LibraryGroom& groom, const HairMaterial& material,
@@ -89,9 +109,7 @@ HairInstance describe_instance(const LibraryGroom& groom, const HairMaterial& ma
     instance.segment_point = strands.segment_point.address();
     instance.segment_strand = strands.segment_strand.address();
     instance.strand_seed = strands.strand_seed.address();
-    instance.flags = (has_colors ? kHasColors : 0u) |
-                     (techniques.shadow == ShadowTechnique::kPcfExponential ? kShadowed : 0u) |
-                     (techniques.environment == EnvironmentTechnique::kSh ? kEnvironment : 0u);
+    instance.flags = has_colors ? kHasColors : 0u;
     instance.base_color = material.base_color;
     instance.color_variation = material.color_variation;
     instance.tip_color = material.tip_color;
@@ -172,7 +190,8 @@ void gather_hair(Query<const Hair, const scene::WorldTransform, const scene::Pre
         instance.previous_to_clip = v.previous_view_projection *
                                     affine(before.known ? before.matrix : world.matrix, camera);
         draw.to_clip = v.view_projection * instance.to_relative;
-        instance.first_id = draw.first_id = frame->segments;
+        draw.first_id = frame->segments;
+        draw.rect = pixels_of(bounds.box, *view);
         instance.first_point = draw.first_point = frame->points;
         frame->points += groom.strands.point_count;
         frame->segments += groom.strands.segment_count;

@@ -4,6 +4,7 @@
 
 #include "engine/ecs/query.h"
 #include "engine/ecs/system.h"
+#include "engine/gpu/command_buffer.h"
 #include "modules/character/components.h"
 #include "modules/hair/components.h"
 #include "modules/light/light_set.h"
@@ -13,7 +14,7 @@
 
 namespace vellus::hair {
 
-enum HairFlags : uint32_t { kHasColors = 1, kShadowed = 2, kEnvironment = 4 };
+enum HairFlags : uint32_t { kHasColors = 1 };
 
 /// Mirrors HairInstance of shaders/hair/geometry/instance.glsl, where the fields are explained.
 struct HairInstance {
@@ -26,10 +27,8 @@ struct HairInstance {
     VkDeviceAddress segment_point;
     VkDeviceAddress segment_strand;
     VkDeviceAddress strand_seed;
-    uint32_t first_id;
     uint32_t first_point;
     uint32_t flags;
-    float shadow_first;
     glm::vec3 base_color;
     float color_variation;
     glm::vec3 tip_color;
@@ -39,9 +38,15 @@ struct HairInstance {
     float scatter;
     float shift;
     float shadow_falloff;
-    float padding;
+    float shadow_first;
 };
-static_assert(sizeof(HairInstance) == 312);
+static_assert(sizeof(HairInstance) == 304);
+
+/// A rectangle of pixels, `end` not included.
+struct PixelRect {
+    glm::ivec2 first{0};
+    glm::ivec2 end{0};
+};
 
 /// What passes need to rasterise one groom.
 struct HairDraw {
@@ -55,6 +60,9 @@ struct HairDraw {
     OpacityTechnique opacity = OpacityTechnique::kDither;
     uint32_t first_id = 0;
     uint32_t first_point = 0;
+    bool shadowed = false;
+    bool environment_lit = false;
+    PixelRect rect;
 };
 
 /// Why an axis of a groom is drawn the way it is.
@@ -89,7 +97,7 @@ struct HairFrame {
     std::vector<HairEffects> effects;     ///< all grooms
     uint32_t points = 0;
     uint32_t segments = 0;
-    VkDeviceAddress instance_address = 0;
+    std::vector<gpu::UniformSlice> instance_blocks;  ///< uploads of `instances`
     graph::BufferHandle projected;
 };
 

@@ -27,16 +27,15 @@ static_assert(sizeof(ShadowDepthPush) == 56);
 
 /// Push constants of shaders/hair/scattering/shade.comp.glsl.
 struct ShadePush {
-    VkDeviceAddress view;
-    VkDeviceAddress lights;
-    VkDeviceAddress instances;
     VkDeviceAddress visibility;
     VkDeviceAddress projected;
-    uint32_t instance_count;
-    glm::ivec2 size;
+    uint32_t first_id;
+    uint32_t segment_count;
+    PixelRect rect;
+    int32_t width;
     uint32_t padding = 0;
 };
-static_assert(sizeof(ShadePush) == 56);
+static_assert(sizeof(ShadePush) == 48);
 
 gpu::ComputeInfo compute_info(const char* shader, uint32_t push_bytes,
                               std::vector<gpu::Binding> bindings = {},
@@ -91,8 +90,10 @@ void assign_hair_shadows(Res<const HairFrame> hair, Res<light::LightSet> lights,
 void describe_hair_projection(Res<HairFrame> hair, Res<HairPipelines> pipelines,
                               Res<scene::RenderFrame> frame) {
     if (hair->draws.empty()) return;
-    hair->instance_address =
-        frame->uploads.push_span(std::span<const HairInstance>(hair->instances));
+    hair->instance_blocks.clear();
+    for (const HairInstance& instance : hair->instances) {
+        hair->instance_blocks.push_back(frame->uploads.push_uniform(instance));
+    }
     if (!frame->compute(pipelines->project, [] {
             return compute_info("hair/geometry/project.comp.glsl", sizeof(ProjectPush));
         })) {
@@ -241,17 +242,29 @@ graph::BufferHandle describe_visibility(const HairFrame& hair, HairPipelines& pi
     return target;
 }
 
-bool make_pipelines(const HairFrame& hair, HairPipelines& pipelines, scene::RenderFrame& frame) {
-    bool ready = frame.compute(pipelines.shade, [] {
-        using enum gpu::Binding;
-        return compute_info("hair/scattering/shade.comp.glsl", sizeof(ShadePush),
-                            {kSampledNearest, kSampledNearest, kStorage, kStorage});
-    });
+const gpu::Pipeline*& shade_slot(HairPipelines& pipelines, const HairDraw& draw,
+                                 const light::LightBlock& lights) {
+    return pipelines.shade[lights.count][draw.shadowed ? 1 : 0][draw.environment_lit ? 1 : 0]
+                          [lights.opaque_casters > 0 ? 1 : 0];
+}
+
+bool make_pipelines(const HairFrame& hair, const light::LightBlock& lights,
+                    HairPipelines& pipelines, scene::RenderFrame& frame) {
+    bool ready = true;
     for (const HairDraw& draw : hair.draws) {
         const bool moving = draw.opacity == OpacityTechnique::kDither;
         ready &= frame.compute(moving ? pipelines.visibility : pipelines.visibility_still, [&] {
             return compute_info("hair/geometry/visibility.comp.glsl", sizeof(VisibilityPush), {},
                                 {moving ? 0u : 1u});
+        });
+        ready &= frame.compute(shade_slot(pipelines, draw, lights), [&] {
+            using enum gpu::Binding;
+            return compute_info(
+                "hair/scattering/shade.comp.glsl", sizeof(ShadePush),
+                {kSampledNearest, kSampledNearest, kStorage, kStorage, kUniform, kUniform,
+                 kUniform},
+                {lights.count, draw.shadowed ? 1u : 0u, draw.environment_lit ? 1u : 0u,
+                 lights.opaque_casters > 0 ? 1u : 0u});
         });
     }
     return ready;
@@ -262,7 +275,7 @@ bool make_pipelines(const HairFrame& hair, HairPipelines& pipelines, scene::Rend
 void describe_hair(Res<HairFrame> hair, Res<const light::LightSet> lights,
                    Res<HairPipelines> pipelines, Res<scene::RenderFrame> frame) {
     if (hair->draws.empty() || !hair->projected) return;
-    if (!make_pipelines(*hair, *pipelines, *frame)) return;
+    if (!make_pipelines(*hair, lights->block, *pipelines, *frame)) return;
     const graph::BufferHandle visibility = describe_visibility(*hair, *pipelines, *frame);
 
     auto pass = frame->graph.add_pass("hair/shade", PassKind::kCompute);
@@ -275,23 +288,28 @@ void describe_hair(Res<HairFrame> hair, Res<const light::LightSet> lights,
     pass.read(frame->opaque_shadows, Access::kSampledCompute);
     frame->color = pass.write(frame->color, Access::kStorageWrite);
     frame->velocity = pass.write(frame->velocity, Access::kStorageWrite);
-    ShadePush push{.view = frame->view,
-                   .lights = frame->lights,
-                   .instances = hair->instance_address,
-                   .instance_count = static_cast<uint32_t>(hair->instances.size()),
-                   .size = glm::ivec2(frame->size)};
-    pass.execute([push, visibility, projected = hair->projected, depth = frame->depth,
-                  shadows = frame->opaque_shadows, color = frame->color, velocity = frame->velocity,
-                  pipeline = pipelines->shade](PassContext& context) {
+    pass.execute([hair = &*hair, pipelines = &*pipelines, block = &lights->block,
+                  view_block = frame->view_block, lights_block = frame->lights_block,
+                  width = static_cast<int32_t>(frame->size.x), visibility,
+                  projected = hair->projected, depth = frame->depth,
+                  shadows = frame->opaque_shadows, color = frame->color,
+                  velocity = frame->velocity](PassContext& context) {
         gpu::CommandBuffer& commands = context.commands();
-        commands.bind(*pipeline);
-        commands.images({context.view(depth), context.view(shadows), context.view(color),
-                         context.view(velocity)});
-        ShadePush full = push;
-        full.visibility = context.address(visibility);
-        full.projected = context.address(projected);
-        commands.push(full);
-        commands.dispatch((push.size.x + 7) / 8, (push.size.y + 7) / 8);
+        for (size_t i = 0; i < hair->draws.size(); ++i) {
+            const HairDraw& draw = hair->draws[i];
+            commands.bind(*shade_slot(*pipelines, draw, *block));
+            commands.images({context.view(depth), context.view(shadows), context.view(color),
+                             context.view(velocity)},
+                            {view_block, lights_block, hair->instance_blocks[i]});
+            commands.push(ShadePush{.visibility = context.address(visibility),
+                                    .projected = context.address(projected),
+                                    .first_id = draw.first_id,
+                                    .segment_count = draw.strands->segment_count,
+                                    .rect = draw.rect,
+                                    .width = width});
+            const glm::ivec2 groups = (draw.rect.end - draw.rect.first + 7) / 8;
+            commands.dispatch(groups.x, groups.y);
+        }
     });
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "modules/hair/geometry/hair_frame.h"
 #include "modules/hair/geometry/strand_raster.h"
 #include "modules/scene/render_frame.h"
@@ -12,7 +14,10 @@ struct HairPipelines {
     const gpu::Pipeline* visibility = nullptr;
     const gpu::Pipeline* visibility_still = nullptr;
     const gpu::Pipeline* shadow_depth = nullptr;
-    const gpu::Pipeline* shade = nullptr;
+    /// By number of lights, shadowed, environment lit, opaque casters.
+    std::array<std::array<std::array<std::array<const gpu::Pipeline*, 2>, 2>, 2>,
+               light::kMaxLights + 1>
+        shade{};
 };
 
 /// Hair depth of all lights, float bits of reversed depth; made when a light first shadows hair.

@@ -5,8 +5,6 @@
 #include "hair/geometry/strands.glsl"
 
 const uint kHairHasColors = 1u;
-const uint kHairShadowed = 2u;
-const uint kHairEnvironment = 4u;
 
 struct HairInstance {
     mat4 to_relative;       // groom to metres relative to the camera
@@ -18,10 +16,8 @@ struct HairInstance {
     Uints segment_point;
     Uints segment_strand;
     Uints strand_seed;
-    uint first_id;       // ids of its segments start above this
     uint first_point;    // of its points among all projected ones
     uint flags;
-    float shadow_first;  // metres of hair without self-shadow, besides the map's texels
     vec3 base_color;
     float color_variation;
     vec3 tip_color;
@@ -31,9 +27,8 @@ struct HairInstance {
     float scatter;
     float shift;
     float shadow_falloff;  // 1/m
-    float padding;
+    float shadow_first;    // metres of hair without self-shadow, besides the map's texels
 };
-layout(buffer_reference, scalar) readonly buffer HairInstances { HairInstance at[]; };
 
 /// A point of a strand under a pixel.
 struct HairSample {
