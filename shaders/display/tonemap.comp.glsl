@@ -15,5 +15,8 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, size))) return;
     vec3 linear_color = texelFetch(color, pixel, 0).rgb;
-    imageStore(display, pixel, vec4(display_color(linear_color, exposure), 1.0));
+    // Half a step of noise before rounding to 8 bits, the same in every frame: a sky shows no bands.
+    float noise = unit_float(hash_uint(uint(pixel.y * size.x + pixel.x))) - 0.5;
+    imageStore(display, pixel,
+               vec4(display_color(linear_color, exposure) + vec3(noise / 255.0), 1.0));
 }

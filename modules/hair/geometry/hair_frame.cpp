@@ -86,12 +86,14 @@ HairDraw describe_draw(const LibraryGroom& groom, const glm::dmat4& world,
                        const HairMaterial& material, const HairWidth& width,
                        const HairTechniques& techniques) {
     const double volume = std::abs(glm::determinant(glm::dmat3(world)));
-    const bool from_column = width.root <= 0.0f && groom.has_width_column;
+    const bool given = width.root > 0.0f;
+    const bool from_column = !given && groom.has_width_column;
     return {.strands = &groom.strands,
             .world = world,
-            .width = from_column ? 0.0f : (width.root > 0.0f ? width.root : groom.width),
+            .width = from_column ? 0.0f : (given ? width.root : groom.width),
             .tip_scale = width.tip_scale,
-            .scale = static_cast<float>(std::cbrt(volume)),
+            // A width that is given is in metres of the world, however the node scales its groom.
+            .scale = given ? 1.0f : static_cast<float>(std::cbrt(volume)),
             .alpha = material.alpha,
             .opacity = techniques.opacity,
             .shadowed = techniques.shadow == ShadowTechnique::kPcfExponential,

@@ -55,7 +55,7 @@ struct HairDraw {
     glm::mat4 to_clip{1.0f};  ///< jittered
     float width = 0.0f;       ///< metres in the world; 0: from the column
     float tip_scale = 1.0f;
-    float scale = 1.0f;  ///< metres in the world per metre of the groom
+    float scale = 1.0f;  ///< of the width, from groom to world
     float alpha = 1.0f;
     OpacityTechnique opacity = OpacityTechnique::kDither;
     uint32_t first_id = 0;
