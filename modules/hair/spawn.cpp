@@ -53,15 +53,21 @@ Result<uint32_t> add_groom(World& world, gpu::Device& device, const std::filesys
     }
     const auto width = static_cast<float>(default_width(groom, metres_per_unit));
     const StrandData strands = prepare_strands(groom, to_metres, width);
+    return add_strands(world, device, name, strands, loaded->report);
+}
+
+Result<uint32_t> add_strands(World& world, gpu::Device& device, const std::string& name,
+                             const StrandData& strands, const GroomReport& report) {
     auto buffers = StrandBuffers::upload(device, strands);
     if (!buffers) return buffers.error();
+    auto& library = world.resource<HairLibrary>();
     library.grooms.push_back({.name = name,
                               .strands = std::move(*buffers),
                               .bounds = strands.bounds,
                               .width = strands.width,
                               .has_width_column = !strands.point_width.empty(),
                               .has_colors = !strands.point_color.empty(),
-                              .report = loaded->report});
+                              .report = report});
     return static_cast<uint32_t>(library.grooms.size() - 1);
 }
 
@@ -71,8 +77,13 @@ Result<Entity> spawn_hair(World& world, gpu::Device& device, const std::filesyst
     if (auto set = set_techniques(techniques, look.techniques); !set) return set.error();
     auto groom = add_groom(world, device, path, look.upright);
     if (!groom) return groom.error();
+    return spawn_hair(world, *groom, look, techniques, parent);
+}
+
+Entity spawn_hair(World& world, uint32_t groom, const HairExtension& look,
+                  const HairTechniques& techniques, Entity parent) {
     const Entity entity =
-        world.spawn(Hair{*groom}, look.material, look.width, HairShadow{}, techniques,
+        world.spawn(Hair{groom}, look.material, look.width, HairShadow{}, techniques,
                     local_transform(look), scene::WorldTransform{}, scene::PreviousWorldTransform{},
                     scene::WorldBounds{}, light::ShadowFocus{});
     if (parent != kNoEntity) world.add(entity, scene::Parent{parent});

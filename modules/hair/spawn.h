@@ -4,7 +4,10 @@
 
 #include "engine/ecs/ecs.h"
 #include "engine/gpu/device.h"
+#include "modules/hair/groom/groom_report.h"
 #include "modules/hair/groom/hair_extension.h"
+#include "modules/hair/groom/strand_data.h"
+#include "modules/hair/techniques.h"
 
 namespace vellus::hair {
 
@@ -13,9 +16,17 @@ namespace vellus::hair {
 Result<uint32_t> add_groom(World& world, gpu::Device& device, const std::filesystem::path& path,
                            bool upright);
 
+/// Strands that are already in node space and metres, e.g. generated ones, into the HairLibrary.
+Result<uint32_t> add_strands(World& world, gpu::Device& device, const std::string& name,
+                             const StrandData& strands, const GroomReport& report);
+
 /// An entity that wears hair: a child of `parent` (kNoEntity: a root).
 Result<Entity> spawn_hair(World& world, gpu::Device& device, const std::filesystem::path& path,
                           const HairExtension& look, Entity parent);
+
+/// The same with a groom of the HairLibrary.
+Entity spawn_hair(World& world, uint32_t groom, const HairExtension& look,
+                  const HairTechniques& techniques, Entity parent);
 
 /// Hair of every node of the instance that has VELLUS_hair; grooms are relative to its file.
 Result<void> spawn_scene_hair(World& world, gpu::Device& device, uint32_t instance);
