@@ -28,6 +28,7 @@ void MemoryMap::reset() {
     sub_mask_.fill(0);
     level_mask_ = 0;
     last_ = kNil;
+    warm_ = kNil;
     high_water_ = 0;
 }
 
@@ -150,6 +151,14 @@ void MemoryMap::cut_back(uint32_t node, uint64_t bytes) {
 MemoryBlock MemoryMap::allocate(uint64_t bytes, uint64_t alignment) {
     bytes = align(std::max<uint64_t>(bytes, 1), uint64_t{1} << kGranuleBits);
     alignment = std::max(alignment, uint64_t{1} << kGranuleBits);
+    if (warm_ != kNil) {
+        const uint32_t warm = warm_;
+        if (nodes_[warm].bytes == bytes && (nodes_[warm].offset & (alignment - 1)) == 0) {
+            warm_ = kNil;
+            return {warm, nodes_[warm].offset, nodes_[warm].tag};
+        }
+        settle();
+    }
     uint32_t node = find(bytes, alignment);
     if (node != kNil) {
         unlink(node);
@@ -176,9 +185,16 @@ uint32_t MemoryMap::merge_with_after(uint32_t node) {
 }
 
 void MemoryMap::free(const MemoryBlock& block, const MemoryTag& tag) {
-    uint32_t node = block.node;
-    assert(node < nodes_.size() && !nodes_[node].is_free);
-    nodes_[node].tag = tag;  // the last owner waited for those before it
+    assert(block.node < nodes_.size() && !nodes_[block.node].is_free && block.node != warm_);
+    if (warm_ != kNil) settle();
+    nodes_[block.node].tag = tag;  // the last owner waited for those before it
+    warm_ = block.node;
+}
+
+/// Joins the block freed last with its free neighbours and puts it into its bin.
+void MemoryMap::settle() {
+    uint32_t node = warm_;
+    warm_ = kNil;
     const uint32_t after = nodes_[node].after;
     if (after != kNil && nodes_[after].is_free) merge_with_after(node);
     const uint32_t before = nodes_[node].before;

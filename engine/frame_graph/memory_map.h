@@ -51,6 +51,7 @@ class MemoryMap {
     uint32_t grow(uint64_t bytes, uint64_t alignment);
     void cut_front(uint32_t node, uint64_t bytes);
     void cut_back(uint32_t node, uint64_t bytes);
+    void settle();
     void link(uint32_t node);
     void unlink(uint32_t node);
     uint32_t merge_with_after(uint32_t node);
@@ -61,6 +62,7 @@ class MemoryMap {
     std::array<uint8_t, kLevels> sub_mask_{};
     uint64_t level_mask_ = 0;
     uint32_t last_ = kNil;
+    uint32_t warm_ = kNil;  // freed last and not yet in a bin: the next of its size takes it
     uint64_t high_water_ = 0;
 };
 

@@ -186,8 +186,10 @@ bool schedule_pass(CompileState& s, uint32_t position) {
     Step& step = begin_step(s, StepKind::kPass, pass);
     for (const AccessRecord& access : s.graph->accesses(pass)) {
         make_room(s, access, index);
-        const bool defined = synchronize(s, use_of(s, access, index), s.plan->barriers);
-        complete = has_content(s, access, defined) && complete;
+        if (!already_visible(s.states[access.resource], access, info(access.access), index)) {
+            const bool defined = synchronize(s, use_of(s, access, index), s.plan->barriers);
+            complete = has_content(s, access, defined) && complete;
+        }
         const Placement& placement = s.plan->placements[access.resource];
         if (placement.last_step == position && placement.pool != kNoIndex) {
             s.stack.push_back(access.resource);

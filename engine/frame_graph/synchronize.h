@@ -24,6 +24,24 @@ struct Use {
     bool defines = false;  ///< afterwards the range has content
 };
 
+/// A read that needs nothing: the layout is right and the last write visible to it.
+inline bool already_visible(ResourceState& state, const AccessRecord& access, const AccessInfo& how,
+                            uint32_t step) {
+    SyncState& sync = state.whole;
+    const VkImageLayout layout = access.image ? how.layout : VK_IMAGE_LAYOUT_UNDEFINED;
+    if (access.write || !access.whole || state.split != kNoIndex || state.aliased ||
+        sync.layout != layout || !sync.defined) {
+        return false;
+    }
+    if (sync.write_stages != 0 &&
+        ((how.stages & ~sync.visible_stages) != 0 || (how.access & ~sync.visible_access) != 0)) {
+        return false;
+    }
+    sync.read_stages |= how.stages;
+    sync.last_step = step;
+    return true;
+}
+
 /// Appends what `use` needs to `batch`, or to the plan's prologue where nothing in the frame comes
 /// before it, and moves the state on. Returns false if part of the range has no content yet.
 bool synchronize(CompileState& s, const Use& use, std::vector<Barrier>& batch);
