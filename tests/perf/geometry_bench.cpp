@@ -99,8 +99,7 @@ Result<void> Contest::load() {
     auto loaded = hair::load_groom(options_.groom);
     if (!loaded) return loaded.error();
     const hair::Upright upright = hair::upright_transform(loaded->groom);
-    strand_width_ =
-        static_cast<float>(hair::default_width(loaded->groom, upright.metres_per_unit));
+    strand_width_ = static_cast<float>(hair::default_width(loaded->groom, upright.metres_per_unit));
     const auto data = hair::prepare_strands(loaded->groom, upright.to_metres, strand_width_);
     auto strands = hair::StrandBuffers::upload(*device_, data);
     if (!strands) return strands.error();
@@ -151,8 +150,8 @@ Result<void> Contest::make_pipelines() {
                                .depth = gpu::DepthMode::kTestWrite,
                                .topology = topology});
     };
-    auto project = library.compute({.shader = "hair/geometry/project.comp.glsl",
-                                    .push_bytes = sizeof(hair::ProjectPush)});
+    auto project = library.compute(
+        {.shader = "hair/geometry/project.comp.glsl", .push_bytes = sizeof(hair::ProjectPush)});
     auto compute = library.compute({.shader = "hair/geometry/visibility.comp.glsl",
                                     .push_bytes = sizeof(hair::VisibilityPush),
                                     .constants = {0}});
@@ -225,14 +224,15 @@ void Contest::record_hardware(VkCommandBuffer handle, const gpu::Pipeline& pipel
                                .pColorAttachments = &color,
                                .pDepthAttachment = &depth};
     vkCmdBeginRendering(handle, &info);
-    const VkViewport viewport{0.0f, 0.0f, static_cast<float>(options_.width),
-                              static_cast<float>(options_.height), 0.0f, 1.0f};
+    const VkViewport viewport{
+        0.0f, 0.0f, static_cast<float>(options_.width), static_cast<float>(options_.height),
+        0.0f, 1.0f};
     vkCmdSetViewport(handle, 0, 1, &viewport);
     vkCmdSetScissor(handle, 0, 1, &area);
     gpu::CommandBuffer commands(handle);
     commands.bind(pipeline);
-    commands.push(RasterPush{projected_.address(), strands_.segment_point.address(),
-                             {options_.width, options_.height}});
+    commands.push(RasterPush{
+        projected_.address(), strands_.segment_point.address(), {options_.width, options_.height}});
     commands.draw(vertices);
     vkCmdEndRendering(handle);
 }
@@ -251,9 +251,8 @@ Result<uint64_t> Contest::count_hardware() {
     auto copied = device_->submit_now("ids", [&](VkCommandBuffer handle) {
         gpu::transition(handle, ids_.handle(), gpu::Format::kR32Uint,
                         VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-        const VkBufferImageCopy region{
-            .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-            .imageExtent = {options_.width, options_.height, 1}};
+        const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                       .imageExtent = {options_.width, options_.height, 1}};
         vkCmdCopyImageToBuffer(handle, ids_.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                buffer->handle(), 1, &region);
     });
@@ -263,13 +262,14 @@ Result<uint64_t> Contest::count_hardware() {
 }
 
 Result<std::vector<Row>> Contest::run() {
-    std::vector<Row> rows = {{.name = "compute rasteriser"}, {.name = "hardware lines"},
-                             {.name = "hardware ribbons"}};
+    std::vector<Row> rows = {
+        {.name = "compute rasteriser"}, {.name = "hardware lines"}, {.name = "hardware ribbons"}};
     const std::array<std::function<void(VkCommandBuffer)>, 3> ways = {
         [&](VkCommandBuffer c) { record_compute(c); },
         [&](VkCommandBuffer c) { record_hardware(c, *lines_, strands_.segment_count * 2); },
         [&](VkCommandBuffer c) { record_hardware(c, *ribbons_, strands_.segment_count * 6); }};
-    // In turn, so that what else the machine does falls on all of them alike; the first round warms.
+    // In turn, so that what else the machine does falls on all of them alike; the first round
+    // warms.
     for (int repeat = -1; repeat < options_.repeats; ++repeat) {
         for (size_t way = 0; way < ways.size(); ++way) {
             const double start = process_cpu_seconds();
@@ -313,18 +313,18 @@ int run_geometry(const Options& options) {
     return written ? 0 : 1;
 }
 
-const Registration kGeometry({"geometry", "closest visible segment: lines, ribbons, compute",
-                              [](CLI::App& app) -> std::function<int()> {
-                                  auto options = std::make_shared<Options>();
-                                  app.add_option("--groom", options->groom, "groom file");
-                                  app.add_option("--device", options->device, "part of its name");
-                                  app.add_option("--width", options->width, "pixels");
-                                  app.add_option("--height", options->height, "pixels");
-                                  app.add_option("--repeats", options->repeats, "runs to count")
-                                      ->check(CLI::Range(1, 1000));
-                                  app.add_option("--json", options->json, "file for the rows");
-                                  return [options] { return run_geometry(*options); };
-                              }});
+const Registration kGeometry(
+    {"geometry", "closest visible segment: lines, ribbons, compute",
+     [](CLI::App& app) -> std::function<int()> {
+         auto options = std::make_shared<Options>();
+         app.add_option("--groom", options->groom, "groom file");
+         app.add_option("--device", options->device, "part of its name");
+         app.add_option("--width", options->width, "pixels");
+         app.add_option("--height", options->height, "pixels");
+         app.add_option("--repeats", options->repeats, "runs to count")->check(CLI::Range(1, 1000));
+         app.add_option("--json", options->json, "file for the rows");
+         return [options] { return run_geometry(*options); };
+     }});
 
 }  // namespace
 

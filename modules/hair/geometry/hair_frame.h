@@ -98,7 +98,8 @@ struct HairFrame {
     uint32_t points = 0;
     uint32_t segments = 0;
     std::vector<gpu::UniformSlice> instance_blocks;  ///< uploads of `instances`
-    graph::BufferHandle projected;
+    graph::BufferHandle projected;                   ///< of this frame's graph, as the next
+    graph::BufferHandle visibility;                  ///< closest segment of each pixel
 };
 
 /// Hair of its own: the box of an entity with a mesh belongs to the character module.

@@ -276,7 +276,7 @@ void describe_hair(Res<HairFrame> hair, Res<const light::LightSet> lights,
                    Res<HairPipelines> pipelines, Res<scene::RenderFrame> frame) {
     if (hair->draws.empty() || !hair->projected) return;
     if (!make_pipelines(*hair, lights->block, *pipelines, *frame)) return;
-    const graph::BufferHandle visibility = describe_visibility(*hair, *pipelines, *frame);
+    const auto visibility = hair->visibility = describe_visibility(*hair, *pipelines, *frame);
 
     auto pass = frame->graph.add_pass("hair/shade", PassKind::kCompute);
     pass.read(visibility, Access::kStorageRead);

@@ -1,0 +1,161 @@
+#include "tests/perf/hair_rig.h"
+
+#include <glm/gtc/packing.hpp>
+
+#include "engine/frame_graph/context.h"
+#include "modules/display/register.h"
+#include "modules/hair/geometry/hair_frame.h"
+#include "modules/hair/register.h"
+#include "modules/hair/spawn.h"
+#include "modules/light/environment.h"
+#include "modules/light/load_environment.h"
+#include "modules/light/register.h"
+#include "modules/scene/camera.h"
+#include "modules/scene/register.h"
+#include "modules/scene/render_frame.h"
+#include "modules/temporal/register.h"
+#include "modules/temporal/temporal.h"
+
+namespace vellus::bench {
+
+namespace {
+
+/// Three-quarter view, a little from above: what the demo shows of a bare groom.
+constexpr double kYaw = 0.5;
+constexpr double kPitch = 0.1;
+constexpr double kFill = 0.95;
+
+Result<void> light_evenly(World& world, gpu::Device& device) {
+    asset::ImageF white{.width = 4, .height = 2, .rgba = std::vector<float>(4 * 2 * 4, 1.0f)};
+    auto environment = light::make_environment(device, white, 1.0f, 0.0f);
+    if (!environment) return environment.error();
+    environment->drawn = false;
+    world.resource<light::Environment>() = std::move(*environment);
+    return {};
+}
+
+void spawn_camera(World& world, const hair::Bounds& bounds, glm::uvec2 size) {
+    scene::Box box;
+    box.include(glm::dvec3(bounds.low));
+    box.include(glm::dvec3(bounds.high));
+    const auto pose =
+        scene::frame_box(box, kYaw, kPitch, static_cast<double>(size.x) / size.y, kFill);
+    world.spawn(scene::local_transform(pose), scene::WorldTransform{},
+                scene::PreviousWorldTransform{}, scene::Camera{pose.vertical_fov, pose.near_plane},
+                scene::ActiveCamera{});
+}
+
+}  // namespace
+
+Result<std::unique_ptr<HairRig>> HairRig::create(const HairRigOptions& options) {
+    std::unique_ptr<HairRig> rig(new HairRig);
+    if (auto done = rig->set_up(options); !done) return done.error();
+    return rig;
+}
+
+HairRig::~HairRig() {
+    if (executor_) static_cast<void>(executor_->wait());
+}
+
+Result<void> HairRig::set_up(const HairRigOptions& options) {
+    auto device = gpu::Device::create({.name = options.device});
+    if (!device) return device.error();
+    device_ = std::move(*device);
+    if (auto done = scene::insert_render_frame(world_, *device_); !done) return done;
+    scene::register_scene(world_, schedule_);
+    light::register_light(world_, schedule_);
+    hair::register_hair(world_, schedule_);
+    temporal::register_temporal(world_, schedule_);
+    display::register_display(world_, schedule_);
+
+    hair::HairExtension look;
+    if (options.white) {
+        look.material.base_color = look.material.tip_color = glm::vec3(0.9f);
+        look.material.color_variation = 0.0f;
+        look.material.use_groom_colors = false;
+        if (auto lit = light_evenly(world_, *device_); !lit) return lit;
+    } else {
+        if (auto sky = light::use_sky(world_, *device_, {}); !sky) return sky;
+        light::spawn_sun(world_, {});
+    }
+    auto groom = hair::add_groom(world_, *device_, options.groom, true);
+    if (!groom) return groom.error();
+    hair::spawn_hair(world_, *groom, look, options.techniques, kNoEntity);
+    const glm::uvec2 size{options.width, options.height};
+    spawn_camera(world_, world_.resource<hair::HairLibrary>().grooms[*groom].bounds, size);
+    world_.resource<scene::ViewSettings>().size = size;
+    world_.resource<temporal::TemporalSettings>().enabled = options.temporal;
+    if (auto built = schedule_.build(world_); !built) return built;
+
+    auto executor = graph::Executor::create(*device_, scene::kFramesInFlight);
+    if (!executor) return executor.error();
+    executor_ = std::move(*executor);
+    pixels_ = size_t{size.x} * size.y;
+    auto buffer =
+        gpu::Buffer::create(*device_, pixels_ * 8, gpu::MemoryKind::kReadback, "readback");
+    if (!buffer) return buffer.error();
+    readback_ = std::move(*buffer);
+    return {};
+}
+
+void HairRig::read_back(Wanted wanted) {
+    auto& frame = world_.resource<scene::RenderFrame>();
+    const auto visibility = world_.resource<hair::HairFrame>().visibility;
+    auto target = frame.graph.import_buffer("readback", {readback_.bytes()}, &readback_,
+                                            graph::Access::kNone, graph::Access::kHostRead);
+    auto pass = frame.graph.add_pass("bench/readback", graph::PassKind::kTransfer);
+    if (wanted == Wanted::kLinear) {
+        pass.read(frame.color, graph::Access::kTransferRead);
+    } else {
+        pass.read(visibility, graph::Access::kTransferRead);
+    }
+    target = pass.write(target, graph::Access::kTransferWrite, graph::Load::kDiscard);
+    pass.execute([wanted, visibility, color = frame.color, target, size = frame.size,
+                  bytes = readback_.bytes()](graph::PassContext& context) {
+        VkCommandBuffer commands = context.commands().handle();
+        if (wanted == Wanted::kLinear) {
+            const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                           .imageExtent = {size.x, size.y, 1}};
+            vkCmdCopyImageToBuffer(commands, context.image(color),
+                                   VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, context.buffer(target), 1,
+                                   &region);
+        } else {
+            const VkBufferCopy region{.size = bytes};
+            vkCmdCopyBuffer(commands, context.buffer(visibility), context.buffer(target), 1,
+                            &region);
+        }
+    });
+    frame.graph.output(target);
+}
+
+Result<void> HairRig::draw(Wanted wanted) {
+    if (auto begun = executor_->begin_frame(); !begun) return begun;
+    schedule_.run(world_);
+    auto& frame = world_.resource<scene::RenderFrame>();
+    if (frame.error) return *frame.error;
+    if (wanted == Wanted::kPicture) {
+        frame.graph.output(frame.display);
+    } else {
+        read_back(wanted);
+    }
+    last_ = wanted;
+    if (auto done = executor_->execute(frame.graph); !done) return done;
+    ++world_.resource<scene::FixedStep>().frame;
+    return executor_->wait();
+}
+
+std::vector<float> HairRig::values() const {
+    std::vector<float> values(pixels_);
+    const auto* words = reinterpret_cast<const uint64_t*>(readback_.mapped());
+    for (size_t i = 0; i < pixels_; ++i) {
+        values[i] = last_ == Wanted::kLinear ? glm::unpackHalf4x16(words[i]).g
+                                             : (words[i] != 0 ? 1.0f : 0.0f);
+    }
+    return values;
+}
+
+uint64_t HairRig::objects_created() const {
+    return executor_->objects_created() + device_->pipelines().created();
+}
+
+}  // namespace vellus::bench
