@@ -17,7 +17,7 @@ struct Sky {
     /// On a horizontal surface, without the sun.
     double sky_irradiance = 0.5;
     /// Linear reflectance, [0, 1].
-    glm::dvec3 ground_albedo{0.24, 0.22, 0.19};
+    glm::dvec3 ground_albedo{0.42, 0.40, 0.37};
 };
 
 struct SunLight {
