@@ -86,7 +86,8 @@ TEST(Tonemap, KeepsMidtonesAndCompressesHighlights) {
     const glm::vec3 brown(0.4f, 0.25f, 0.15f);
     EXPECT_NEAR(glm::length(surface::tonemap_pbr_neutral(brown) - (brown - 0.04f)), 0.0f, 1e-6f);
     float before = -1.0f;
-    for (float x = 0.0f; x < 100.0f; x = x * 1.1f + 1e-3f) {
+    for (int i = 0; i < 120; ++i) {
+        const float x = 1e-3f * (std::pow(1.1f, static_cast<float>(i)) - 1.0f);
         const glm::vec3 mapped = surface::tonemap_pbr_neutral(glm::vec3(x));
         EXPECT_GT(mapped.x, before);
         EXPECT_LE(mapped.x, 1.0f);

@@ -137,7 +137,7 @@ TEST(PcfExponential, APlaneDoesNotShadowItself) {
         const double y = std::floor(moved.y / kTexel - 0.5);
         for (int corner = 0; corner < 4; ++corner) {
             const double occluder =
-                depth_at((x + 0.5 + corner % 2) * kTexel, (y + 0.5 + corner / 2) * kTexel);
+                depth_at((x + 0.5 + corner % 2) * kTexel, (y + 0.5 + (corner >> 1)) * kTexel);
             EXPECT_LE(-moved.z, occluder + 1e-6);
         }
     }
