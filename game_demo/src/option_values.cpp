@@ -63,6 +63,12 @@ Result<std::array<uint32_t, 2>> read_size(std::string_view text) {
                  fmt::format("WIDTHxHEIGHT, each 1 to {}, e.g. 1280x720", kMaxSide)};
 }
 
+Result<double> read_seconds(std::string_view text) {
+    const auto seconds = read_number<double>(text);
+    if (seconds && *seconds >= 0.0 && *seconds <= 10.0) return *seconds;
+    return Error{fmt::format("'{}' is no time step", text), "", "seconds, 0 to 10"};
+}
+
 Result<SaveChoice> read_save(std::string_view text) {
     if (text == "all") return SaveChoice{SaveChoice::Kind::kAll, {}};
     if (text == "last") return SaveChoice{SaveChoice::Kind::kLast, {}};

@@ -15,6 +15,8 @@ constexpr uint32_t kMaxFrames = 1'000'000;
 
 /// "1280x720".
 Result<std::array<uint32_t, 2>> read_size(std::string_view text);
+/// Seconds, 0 to 10.
+Result<double> read_seconds(std::string_view text);
 /// "all", "last" or "0,5,31".
 Result<SaveChoice> read_save(std::string_view text);
 /// "shadow=none"; axis and technique are those of the hair module.

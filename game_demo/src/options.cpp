@@ -59,8 +59,11 @@ void add_run_options(CLI::App& app, Options& options) {
 }
 
 void add_world_options(CLI::App& app, Options& options) {
-    app.add_option("--dt", options.dt, "Seconds from frame to frame; 1/60 if not given")
-        ->check(CLI::Range(0.0, 10.0))
+    app.add_option_function<std::string>(
+           "--dt",
+           reading("--dt",
+                   [&](const std::string& text) { return keep(read_seconds(text), options.dt); }),
+           "Seconds from frame to frame; 1/60 if not given")
         ->type_name("S");
     app.add_option("--seed", options.seed, "Seed of everything random")
         ->type_name("S")
@@ -76,6 +79,7 @@ void add_world_options(CLI::App& app, Options& options) {
            },
            "Technique of all grooms on an axis: " + describe_techniques())
         ->type_name("AXIS=TECHNIQUE")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->allow_extra_args(false);
 }
 
@@ -97,6 +101,7 @@ void add_device_options(CLI::App& app, Options& options) {
            },
            "Debugging aid of the frame graph, same picture: " + switch_names())
         ->type_name("SWITCH")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->allow_extra_args(false);
 }
 
@@ -121,6 +126,8 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
     app.footer(
         "In the window: drag to turn, right drag to move, scroll to come closer; H lists the "
         "keys.");
+    // Scripts append their own: the last one counts.
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     try {
         add_run_options(app, parsed.options);
         add_world_options(app, parsed.options);

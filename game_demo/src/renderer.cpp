@@ -73,8 +73,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Device& device,
 }
 
 Renderer::~Renderer() {
-    // What the world holds may still be in use by the device.
-    if (executor_) static_cast<void>(executor_->wait());
+    // What the world holds may still be in use, the picture by a presentation too.
+    static_cast<void>(device_.wait_idle());
 }
 
 Result<void> Renderer::register_modules() {
