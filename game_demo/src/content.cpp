@@ -12,6 +12,7 @@
 #include "modules/scene/camera.h"
 #include "modules/scene/instantiate.h"
 #include "modules/scene/view.h"
+#include "modules/temporal/temporal.h"
 
 namespace vellus::demo {
 
@@ -99,12 +100,23 @@ void set_techniques(World& world, const std::vector<TechniqueChoice>& choices) {
     });
 }
 
-scene::Box box_of(World& world) {
-    scene::Box box;
-    world.query<const scene::WorldBounds>().each([&](const scene::WorldBounds& bounds) {
-        if (!bounds.box.empty()) box.include(bounds.box);
-    });
-    return box;
+/// What the picture should hold: outermost points of hair, corners of everything else.
+std::vector<glm::dvec3> outline_of(World& world) {
+    std::vector<glm::dvec3> points;
+    world.query<const scene::WorldBounds, Without<hair::Hair>>().each(
+        [&](const scene::WorldBounds& bounds) {
+            if (bounds.box.empty()) return;
+            const auto corners = bounds.box.corners();
+            points.insert(points.end(), corners.begin(), corners.end());
+        });
+    const auto& grooms = world.resource<hair::HairLibrary>().grooms;
+    world.query<const hair::Hair, const scene::WorldTransform>().each(
+        [&](const hair::Hair& hair, const scene::WorldTransform& transform) {
+            for (const glm::vec3& point : grooms[hair.groom].outermost) {
+                points.emplace_back(transform.matrix * glm::dvec4(point, 1.0));
+            }
+        });
+    return points;
 }
 
 Result<void> place_camera(Renderer& renderer) {
@@ -116,7 +128,7 @@ Result<void> place_camera(Renderer& renderer) {
     if (auto settled = renderer.settle(); !settled) return settled;
     const glm::dvec2 size(world.resource<scene::ViewSettings>().size);
     const scene::CameraPose pose =
-        scene::frame_box(box_of(world), kDefaultYaw, kDefaultPitch, size.x / size.y);
+        scene::frame_points(outline_of(world), kDefaultYaw, kDefaultPitch, size.x / size.y);
     world.spawn(scene::Camera{pose.vertical_fov, pose.near_plane}, scene::local_transform(pose),
                 scene::WorldTransform{}, scene::PreviousWorldTransform{}, scene::ActiveCamera{});
     return renderer.settle();
@@ -138,6 +150,7 @@ Result<void> load_content(Renderer& renderer, gpu::Device& device, const Options
     if (auto loaded = load_file(world, device, content_path(options)); !loaded) return loaded;
     if (first_with<scene::Light>(world) == kNoEntity) light::spawn_sun(world, {});
     set_techniques(world, options.techniques);
+    world.resource<temporal::TemporalSettings>().enabled = !options.no_taa;
     return place_camera(renderer);
 }
 

@@ -86,6 +86,8 @@ void add_world_options(CLI::App& app, Options& options) {
 void add_device_options(CLI::App& app, Options& options) {
     app.add_option("--device", options.device, "Part of the GPU's name")->type_name("NAME");
     app.add_flag("--list-devices", options.list_devices, "Print the GPUs' names and end");
+    app.add_flag("--no-taa", options.no_taa,
+                 "Without temporal antialiasing; opacity=dither_still covers then too");
     app.add_flag("--validation", options.validation,
                  "Vulkan validation; ends with status 1 if it had anything to say");
     app.add_flag("--explain", options.explain,

@@ -42,6 +42,7 @@ struct Options {
     std::vector<TechniqueChoice> techniques;
     graph::Switches switches;
     bool validation = false;
+    bool no_taa = false;
     bool explain = false;
     bool list_devices = false;
 };

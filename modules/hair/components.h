@@ -27,6 +27,8 @@ struct LibraryGroom {
     std::string name;
     StrandBuffers strands;
     Bounds bounds;  ///< node space, metres
+    /// Its outermost points in many directions: what a camera must see to see all of it.
+    std::vector<glm::vec3> outermost;
     float width = 0.0f;
     bool has_width_column = false;
     bool has_colors = false;

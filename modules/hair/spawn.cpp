@@ -1,7 +1,10 @@
 #include "modules/hair/spawn.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
+#include "engine/platform/jobs.h"
 #include "engine/platform/log.h"
 #include "modules/hair/components.h"
 #include "modules/hair/groom/groom_file.h"
@@ -21,6 +24,31 @@ void log_report(const std::string& name, const GroomReport& report) {
         log_info("{}: {}", name, text.substr(start, end - start));
         start = end + 1;
     }
+}
+
+/// The points farthest along each of a few hundred directions spread over the sphere (Fibonacci
+/// lattice); of very many points, a sample.
+std::vector<glm::vec3> outermost_points(const std::vector<glm::vec3>& points) {
+    constexpr size_t kDirections = 256;
+    constexpr size_t kSample = 100'000;
+    std::vector<glm::vec3> result(points.empty() ? 0 : kDirections);
+    const size_t stride = points.size() / kSample + 1;
+    parallel_ranges(result.size(), 16, [&](size_t first, size_t last) {
+        for (size_t i = first; i < last; ++i) {
+            const float y = 1.0f - 2.0f * (static_cast<float>(i) + 0.5f) / kDirections;
+            const float angle = 2.3999632f * static_cast<float>(i);
+            const float across = std::sqrt(1.0f - y * y);
+            const glm::vec3 direction(across * std::cos(angle), y, across * std::sin(angle));
+            float farthest = std::numeric_limits<float>::lowest();
+            for (size_t p = 0; p < points.size(); p += stride) {
+                const float along = glm::dot(points[p], direction);
+                if (along <= farthest) continue;
+                farthest = along;
+                result[i] = points[p];
+            }
+        }
+    });
+    return result;
 }
 
 scene::LocalTransform local_transform(const HairExtension& look) {
@@ -64,6 +92,7 @@ Result<uint32_t> add_strands(World& world, gpu::Device& device, const std::strin
     library.grooms.push_back({.name = name,
                               .strands = std::move(*buffers),
                               .bounds = strands.bounds,
+                              .outermost = outermost_points(strands.positions),
                               .width = strands.width,
                               .has_width_column = !strands.point_width.empty(),
                               .has_colors = !strands.point_color.empty(),

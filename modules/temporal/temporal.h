@@ -10,7 +10,7 @@ namespace vellus::temporal {
 /// Resource.
 struct TemporalSettings {
     bool enabled = true;
-    float blend = 0.1f;
+    float blend = 0.06f;
 };
 
 /// Made when the history is first resolved. Resource.

@@ -34,12 +34,10 @@ Result<void> light_evenly(World& world, gpu::Device& device) {
     return {};
 }
 
-void spawn_camera(World& world, const hair::Bounds& bounds, glm::uvec2 size) {
-    scene::Box box;
-    box.include(glm::dvec3(bounds.low));
-    box.include(glm::dvec3(bounds.high));
+void spawn_camera(World& world, const hair::LibraryGroom& groom, glm::uvec2 size) {
+    const std::vector<glm::dvec3> points(groom.outermost.begin(), groom.outermost.end());
     const auto pose =
-        scene::frame_box(box, kYaw, kPitch, static_cast<double>(size.x) / size.y, kFill);
+        scene::frame_points(points, kYaw, kPitch, static_cast<double>(size.x) / size.y, kFill);
     world.spawn(scene::local_transform(pose), scene::WorldTransform{},
                 scene::PreviousWorldTransform{}, scene::Camera{pose.vertical_fov, pose.near_plane},
                 scene::ActiveCamera{});
@@ -82,7 +80,7 @@ Result<void> HairRig::set_up(const HairRigOptions& options) {
     if (!groom) return groom.error();
     hair::spawn_hair(world_, *groom, look, options.techniques, kNoEntity);
     const glm::uvec2 size{options.width, options.height};
-    spawn_camera(world_, world_.resource<hair::HairLibrary>().grooms[*groom].bounds, size);
+    spawn_camera(world_, world_.resource<hair::HairLibrary>().grooms[*groom], size);
     world_.resource<scene::ViewSettings>().size = size;
     world_.resource<temporal::TemporalSettings>().enabled = options.temporal;
     if (auto built = schedule_.build(world_); !built) return built;
