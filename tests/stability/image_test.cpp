@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <xmmintrin.h>
 
 #include <array>
 #include <cmath>
@@ -8,6 +7,10 @@
 
 #include "tests/stability/cases.h"
 #include "tests/stability/report.h"
+
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
 
 // Rows "exponential shadow", "TAA", "light" and "denormals" of the hard cases.
 namespace vellus::test {
@@ -164,6 +167,7 @@ TEST(Light, NoLightIsBlack) {
     report_row({"light", "no light: black", describe(p), glm::length(value), 0.0});
 }
 
+#ifdef __SSE2__
 TEST(Denormals, FlushingThemChangesNothingVisible) {
     Worst worst;
     for (uint64_t i = 0; i < 400'000; ++i) {
@@ -184,6 +188,7 @@ TEST(Denormals, FlushingThemChangesNothingVisible) {
     }
     worst.report("denormals", "flush-to-zero on and off", 1.0 / 255.0);
 }
+#endif
 
 TEST(Dither, ZeroNeverAndOneAlways) {
     Worst worst;
