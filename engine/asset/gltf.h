@@ -9,12 +9,13 @@
 
 namespace vellus::asset {
 
-/// What one file may cost: everything built from it stays below `fixed_bytes + multiple` x its
-/// bytes on disk (the files it refers to included; decoded images are bounded by image_io.h
-/// instead).
+/// What one file may cost: everything built from it stays below `fixed_bytes` + `multiple` x its
+/// bytes on disk, the files it refers to included. Decoded images count apart: `image_pixels` in all,
+/// those beyond are left out.
 struct GltfLimits {
     uint64_t fixed_bytes = uint64_t{256} << 20U;
     uint64_t multiple = 64;
+    uint64_t image_pixels = uint64_t{1} << 29U;
     uint32_t node_depth = 512;
 };
 

@@ -35,6 +35,7 @@ struct Context {
     std::deque<std::vector<std::byte>> storage;
     uint64_t bytes_read = 0;
     uint64_t bytes_built = 0;
+    uint64_t pixels_built = 0;
     std::vector<std::string> warnings;
 
     void warn(const std::string& pointer, const std::string& text);

@@ -25,8 +25,11 @@ Bytes image_bytes(const Json& image, const std::string& pointer, Context& contex
 /// Empty where it cannot be read: a scene is of use without one of its textures.
 Image read_image(const Json& from, const std::string& pointer, Context& context) {
     try {
-        Result<Image> image = decode_image(image_bytes(from, pointer, context));
+        const uint64_t allowed = context.limits.image_pixels - context.pixels_built;
+        Result<Image> image =
+            decode_image(image_bytes(from, pointer, context), std::min(allowed, kMaxImagePixels));
         if (image) {
+            context.pixels_built += uint64_t{image->width} * image->height;
             return std::move(*image);
         }
         context.warn(pointer, image.error().message());

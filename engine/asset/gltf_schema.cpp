@@ -10,8 +10,8 @@ namespace {
 
 constexpr const char* kFixFile = "correct the file, or export it again";
 
-/// More objects of one kind are refused, so that tinygltf's structures stay in proportion.
-constexpr size_t kMaxObjects = size_t{1} << 20U;
+/// What an object costs at most as JSON, in tinygltf and in the scene, its arrays apart.
+constexpr uint64_t kObjectBytes = 2048;
 
 const std::vector<const Property*>& properties_of(std::string_view owner) {
     static const auto kByOwner = [] {
@@ -31,6 +31,7 @@ class SchemaCheck {
     explicit SchemaCheck(Json& doc, Context& context) : doc_(doc), context_(context) {}
 
     void object(std::string_view type, Json& value, const std::string& pointer) {
+        context_.charge(1, kObjectBytes, pointer);
         for (const Property* property : properties_of(type)) {
             const std::string place = fmt::format("{}/{}", pointer, property->name);
             const auto found = value.find(property->name);
@@ -74,10 +75,6 @@ class SchemaCheck {
         }
         if (!value.is_array()) {
             refuse(pointer, "no array", kFixFile);
-        }
-        if (value.size() > kMaxObjects && property.kind != Kind::kNumber) {
-            refuse(pointer, fmt::format("{} entries", value.size()),
-                   fmt::format("use at most {}", kMaxObjects));
         }
         if (property.length != 0 && value.size() != property.length) {
             refuse(pointer, fmt::format("{} numbers instead of {}", value.size(), property.length),

@@ -35,14 +35,15 @@ bool is_hdr(std::span<const std::byte> bytes) {
     return starts_with(bytes, "#?");
 }
 
-std::optional<Error> check_size(uint64_t width, uint64_t height, uint64_t file_bytes) {
+std::optional<Error> check_size(uint64_t width, uint64_t height, uint64_t file_bytes,
+                                uint64_t max_pixels) {
     if (width == 0 || height == 0) {
         return Error{fmt::format("an image of {}x{} pixels", width, height), "", "export it again"};
     }
-    if (width > kMaxImageSide || height > kMaxImageSide || width * height > kMaxImagePixels) {
+    if (width > kMaxImageSide || height > kMaxImageSide || width * height > max_pixels) {
         return Error{fmt::format("an image of {}x{} pixels is over the limit", width, height), "",
                      fmt::format("scale it down: at most {} per side and {} in all", kMaxImageSide,
-                                 kMaxImagePixels)};
+                                 max_pixels)};
     }
     if (width * height > kMaxPixelsPerByte * file_bytes) {
         return Error{fmt::format("{} bytes cannot hold {}x{} pixels", file_bytes, width, height),
@@ -113,7 +114,7 @@ Result<void> save(const std::filesystem::path& path, const Result<std::vector<st
 }  // namespace
 
 Result<Image> load_image(const std::filesystem::path& path) {
-    return load<Image>(path, decode_image);
+    return load<Image>(path, [](std::span<const std::byte> bytes) { return decode_image(bytes); });
 }
 
 Result<ImageF> decode_image_f(std::span<const std::byte> bytes) {

@@ -16,7 +16,7 @@ constexpr uint64_t kMaxImagePixels = uint64_t{1} << 27U;
 
 /// PNG or JPEG (told apart by content) as 8-bit RGBA; 16-bit PNGs are rounded to 8 bits.
 Result<Image> load_image(const std::filesystem::path& path);
-Result<Image> decode_image(std::span<const std::byte> bytes);
+Result<Image> decode_image(std::span<const std::byte> bytes, uint64_t max_pixels = kMaxImagePixels);
 
 /// Radiance .hdr, OpenEXR, PNG or JPEG (told apart by content) as linear RGBA. Every value that
 /// comes back is finite and >= 0: NaN and negative values become 0, infinity becomes 65504 (the

@@ -39,7 +39,7 @@ void limit_scans(j_common_ptr jpeg) {
 
 /// Everything between set-up and destruction. longjmp may leave this function, so it owns nothing:
 /// the pixels belong to the caller. False with a message in the decoder, or with `size_error` set.
-bool decode(Decoder& decoder, std::span<const std::byte> bytes, Image& image,
+bool decode(Decoder& decoder, std::span<const std::byte> bytes, uint64_t max_pixels, Image& image,
             std::optional<Error>& size_error) {
     jpeg_decompress_struct& jpeg = decoder.jpeg;
     if (setjmp(decoder.on_error) != 0) {  // NOLINT
@@ -47,7 +47,7 @@ bool decode(Decoder& decoder, std::span<const std::byte> bytes, Image& image,
     }
     jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
     jpeg_read_header(&jpeg, TRUE);
-    size_error = check_size(jpeg.image_width, jpeg.image_height, bytes.size());
+    size_error = check_size(jpeg.image_width, jpeg.image_height, bytes.size(), max_pixels);
     if (size_error) {
         return false;
     }
@@ -66,7 +66,7 @@ bool decode(Decoder& decoder, std::span<const std::byte> bytes, Image& image,
 
 }  // namespace
 
-Result<Image> decode_jpeg(std::span<const std::byte> bytes) {
+Result<Image> decode_jpeg(std::span<const std::byte> bytes, uint64_t max_pixels) {
     Decoder decoder;
     decoder.jpeg.err = jpeg_std_error(&decoder.errors);
     decoder.errors.error_exit = fail;
@@ -77,7 +77,7 @@ Result<Image> decode_jpeg(std::span<const std::byte> bytes) {
     decoder.jpeg.progress = &decoder.progress;
     Image image;
     std::optional<Error> size_error;
-    const bool done = decode(decoder, bytes, image, size_error);
+    const bool done = decode(decoder, bytes, max_pixels, image, size_error);
     jpeg_destroy_decompress(&decoder.jpeg);
     if (size_error) {
         return std::move(*size_error);

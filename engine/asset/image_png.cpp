@@ -28,9 +28,9 @@ void append(void* context, void* data, int size) {
 
 }  // namespace
 
-Result<Image> decode_image(std::span<const std::byte> bytes) {
+Result<Image> decode_image(std::span<const std::byte> bytes, uint64_t max_pixels) {
     if (detail::is_jpeg(bytes)) {
-        return detail::decode_jpeg(bytes);
+        return detail::decode_jpeg(bytes, max_pixels);
     }
     if (!detail::is_png(bytes)) {
         return Error{"neither PNG nor JPEG", "", "convert it to PNG"};
@@ -38,8 +38,9 @@ Result<Image> decode_image(std::span<const std::byte> bytes) {
     if (bytes.size() < kPngHeaderEnd || bytes.size() > std::numeric_limits<int>::max()) {
         return Error{fmt::format("a PNG of {} bytes", bytes.size()), "", "export it again"};
     }
-    if (auto error = detail::check_size(big_endian(bytes.subspan<16, 4>()),
-                                        big_endian(bytes.subspan<20, 4>()), bytes.size())) {
+    if (auto error =
+            detail::check_size(big_endian(bytes.subspan<16, 4>()),
+                               big_endian(bytes.subspan<20, 4>()), bytes.size(), max_pixels)) {
         return std::move(*error);
     }
     int width = 0;

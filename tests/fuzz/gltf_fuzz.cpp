@@ -7,8 +7,10 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     // A small allowance: a fuzzer must not need gigabytes to find out that limits hold.
-    const vellus::asset::GltfLimits limits{
-        .fixed_bytes = uint64_t{1} << 24U, .multiple = 64, .node_depth = 64};
+    const vellus::asset::GltfLimits limits{.fixed_bytes = uint64_t{1} << 24U,
+                                           .multiple = 64,
+                                           .image_pixels = 1U << 20U,
+                                           .node_depth = 64};
     const auto scene = vellus::asset::load_gltf_bytes(
         {reinterpret_cast<const std::byte*>(data), size}, "", limits);
     vellus::fuzz::require(scene ? vellus::asset::test::broken_promise(*scene).empty()

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "engine/asset/image_io.h"
 #include "tests/unit/asset/glb_builder.h"
 #include "tests/unit/asset/scene_invariants.h"
 
@@ -323,6 +324,29 @@ TEST(Gltf, RefusesFilesThatAskForTooMuch) {
               primitives + "]}]");
     EXPECT_EQ(load(file).meshes.at(0).primitives.size(), 100U);
     expect_refused(file, "2 times its files", GltfLimits{.fixed_bytes = 1000, .multiple = 2});
+}
+
+TEST(Gltf, LeavesOutImagesBeyondThePixelsAllowed) {
+    GlbBuilder b;
+    b.view(*encode_png(Image{8, 8, std::vector<uint8_t>(256, 200)}));
+    const auto file = b.glb(
+        R"("images":[{"bufferView":0,"mimeType":"image/png"},{"bufferView":0,"mimeType":"image/png"},
+                               {"bufferView":0,"mimeType":"image/png"}])");
+    EXPECT_EQ(load(file).images.at(2).rgba.size(), 256U);
+    const auto scene = load_gltf_bytes(file, "", GltfLimits{.image_pixels = 150});
+    ASSERT_TRUE(scene) << scene.error().message();
+    EXPECT_EQ(scene->images.at(1).rgba.size(), 256U);
+    EXPECT_TRUE(scene->images.at(2).rgba.empty());
+    EXPECT_EQ(scene->warnings.size(), 1U);
+}
+
+TEST(Gltf, CountsObjectsAsMemory) {
+    std::string nodes = "{}";
+    for (int i = 0; i < 5000; ++i) {
+        nodes += ",{}";
+    }
+    expect_refused(as_file(document(R"("nodes":[)" + nodes + "]")), "/nodes/",
+                   GltfLimits{.fixed_bytes = 1U << 20U, .multiple = 64});
 }
 
 TEST(Gltf, RefusesNestingThatWouldOverflowAStack) {
