@@ -45,8 +45,6 @@ struct SkinPush {
 static_assert(sizeof(SkinPush) == 72);
 
 struct MeshPush {
-    VkDeviceAddress view = 0;
-    VkDeviceAddress lights = 0;
     VkDeviceAddress vertices = 0;
     VkDeviceAddress texcoords = 0;
     VkDeviceAddress colors = 0;
@@ -60,14 +58,12 @@ struct MeshPush {
     float hair_falloff = 0.0f;
     uint32_t unused = 0;
 };
-static_assert(sizeof(MeshPush) == 96);
+static_assert(sizeof(MeshPush) == 80);
 
 struct ShadowPush {
-    VkDeviceAddress lights = 0;
+    glm::mat4 to_shadow{1.0f};
     VkDeviceAddress vertices = 0;
-    uint32_t light = 0;
-    uint32_t unused = 0;
 };
-static_assert(sizeof(ShadowPush) == 24);
+static_assert(sizeof(ShadowPush) == 72);
 
 }  // namespace vellus::character

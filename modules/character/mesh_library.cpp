@@ -83,7 +83,8 @@ gpu::RasterInfo draw_info(bool cull_back) {
     gpu::RasterInfo info;
     info.vertex_shader = "character/mesh.vert.glsl";
     info.fragment_shader = "character/mesh.frag.glsl";
-    info.bindings = {gpu::Binding::kSampledRepeat, gpu::Binding::kSampledNearest};
+    info.bindings = {gpu::Binding::kSampledRepeat, gpu::Binding::kSampledNearest,
+                     gpu::Binding::kUniform, gpu::Binding::kUniform};
     info.push_bytes = sizeof(MeshPush);
     info.color_formats = {gpu::Format::kRgba16Float, gpu::Format::kRg16Float};
     info.depth_format = gpu::Format::kD32Float;

@@ -12,7 +12,7 @@ constexpr uint32_t kSkinGroup = 64;
 
 /// The part of the shadow atlas that belongs to one light.
 struct Tile {
-    uint32_t light;
+    glm::mat4 to_shadow;
     uint32_t left;
     uint32_t size;
 };
@@ -37,7 +37,8 @@ Tiles shadow_tiles(const light::LightBlock& block) {
     for (uint32_t i = 0; i < block.count; ++i) {
         const light::PunctualLight& light = block.light[i];
         if (light.shadow_tile == light::kNoShadow) continue;
-        tiles.tile[tiles.count++] = {i, light.shadow_tile * light.shadow_size, light.shadow_size};
+        tiles.tile[tiles.count++] = {light.to_shadow, light.shadow_tile * light.shadow_size,
+                                     light.shadow_size};
     }
     return tiles;
 }
@@ -56,21 +57,19 @@ void record_skinning(gpu::CommandBuffer& commands, std::span<const MeshDraw> dra
 }
 
 void record_meshes(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws,
-                   VkDeviceAddress skinned, VkDeviceAddress view, VkDeviceAddress lights,
-                   VkImageView opaque_shadows) {
+                   VkDeviceAddress skinned, const gpu::UniformSlice& view,
+                   const gpu::UniformSlice& lights, VkImageView opaque_shadows) {
     const gpu::Pipeline* bound = nullptr;
     VkImageView sampled = VK_NULL_HANDLE;
     for (const MeshDraw& draw : draws) {
         if (!draw.in_view) continue;
         if (draw.pipeline != bound) commands.bind(*draw.pipeline);
         if (draw.pipeline != bound || draw.base_color != sampled) {
-            commands.images({draw.base_color, opaque_shadows});
+            commands.images({draw.base_color, opaque_shadows}, {view, lights});
         }
         bound = draw.pipeline;
         sampled = draw.base_color;
         MeshPush push = draw.mesh;
-        push.view = view;
-        push.lights = lights;
         push.vertices = skinned + draw.skin.skinned;
         commands.push(push);
         commands.draw_indexed(draw.indices, draw.index_count);
@@ -78,11 +77,11 @@ void record_meshes(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws
 }
 
 void record_shadow(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws,
-                   const MeshPipelines& pipelines, VkDeviceAddress skinned, VkDeviceAddress lights,
-                   uint32_t light) {
+                   const MeshPipelines& pipelines, VkDeviceAddress skinned,
+                   const glm::mat4& to_shadow) {
     commands.bind(*pipelines.shadow);
     for (const MeshDraw& draw : draws) {
-        commands.push(ShadowPush{lights, skinned + draw.skin.skinned, light});
+        commands.push(ShadowPush{to_shadow, skinned + draw.skin.skinned});
         commands.draw_indexed(draw.indices, draw.index_count);
     }
 }
@@ -116,12 +115,11 @@ void describe_mesh_shadows(Res<const MeshDraws> draws, Res<const MeshLibrary> li
     pass.read(passes->skinned, graph::Access::kGraphicsStorageRead);
     frame->opaque_shadows = pass.depth(frame->opaque_shadows);
     pass.execute([skinned = passes->skinned, tiles, list = std::span(draws->draws),
-                  block = frame->lights,
                   pipelines = &library->pipelines](graph::PassContext& context) {
         for (uint32_t i = 0; i < tiles.count; ++i) {
             set_tile(context.commands().handle(), tiles.tile[i]);
-            record_shadow(context.commands(), list, *pipelines, context.address(skinned), block,
-                          tiles.tile[i].light);
+            record_shadow(context.commands(), list, *pipelines, context.address(skinned),
+                          tiles.tile[i].to_shadow);
         }
     });
 }
@@ -139,7 +137,7 @@ void describe_meshes(Res<const MeshDraws> draws, Res<const MeshLibrary> library,
     if (shadows) pass.read(shadows, graph::Access::kSampledFragment);
     if (frame->hair_shadows) pass.read(frame->hair_shadows, graph::Access::kGraphicsStorageRead);
     pass.execute([skinned = passes->skinned, shadows, list = std::span(draws->draws),
-                  view = frame->view, lights = frame->lights,
+                  view = frame->view_block, lights = frame->lights_block,
                   white = library->white.view()](graph::PassContext& context) {
         record_meshes(context.commands(), list, context.address(skinned), view, lights,
                       shadows ? context.view(shadows) : white);

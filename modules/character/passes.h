@@ -36,10 +36,10 @@ void describe_meshes(Res<const MeshDraws> draws, Res<const MeshLibrary> library,
 void record_skinning(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws,
                      const MeshPipelines& pipelines, VkDeviceAddress skinned);
 void record_meshes(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws,
-                   VkDeviceAddress skinned, VkDeviceAddress view, VkDeviceAddress lights,
-                   VkImageView opaque_shadows);
+                   VkDeviceAddress skinned, const gpu::UniformSlice& view,
+                   const gpu::UniformSlice& lights, VkImageView opaque_shadows);
 void record_shadow(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws,
-                   const MeshPipelines& pipelines, VkDeviceAddress skinned, VkDeviceAddress lights,
-                   uint32_t light);
+                   const MeshPipelines& pipelines, VkDeviceAddress skinned,
+                   const glm::mat4& to_shadow);
 
 }  // namespace vellus::character

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "character/mesh_push.glsl"
 #include "common/pbr.glsl"
 #include "hair/shadow/hair_shadow.glsl"
@@ -22,7 +23,7 @@ bool is_cut_out(float alpha) {
     if (alpha_cutoff > 0.0) return alpha < alpha_cutoff;
     if (alpha_cutoff == 0.0) return false;
     uvec2 pixel = uvec2(gl_FragCoord.xy);
-    uint mixed = hash_uint(pixel.x + hash_uint(pixel.y + hash_uint(view_block.view.frame_index)));
+    uint mixed = hash_uint(pixel.x + hash_uint(pixel.y + hash_uint(view.frame_index)));
     return alpha <= unit_float(mixed);
 }
 
@@ -44,8 +45,9 @@ void main() {
     vec3 n = normalize(normal) * (gl_FrontFacing ? front_flip : back_flip);
     vec3 to_view = -normalize(position);
     vec3 radiance = emissive;
-    for (uint i = 0; i < lights.block.count; ++i) {
-        PunctualLight light = lights.block.light[i];
+    [[unroll]] for (uint i = 0; i < kMaxLights; ++i) {
+        if (i >= lights.count) break;
+        PunctualLight light = lights.light[i];
         vec3 to_light;
         vec3 irradiance = light_irradiance(light, position, to_light);
         vec3 reflected = pbr_direct(surface, n, to_light, to_view) * irradiance;
@@ -54,10 +56,10 @@ void main() {
         }
     }
     radiance += pbr_environment(surface, dot(n, to_view),
-                                sh_irradiance_over_pi(lights.block.environment, n),
-                                sh_irradiance_over_pi(lights.block.environment, reflect(-to_view, n)));
+                                sh_irradiance_over_pi(lights.environment, n),
+                                sh_irradiance_over_pi(lights.environment, reflect(-to_view, n)));
     out_color = vec4(min(radiance, vec3(60000.0)), 1.0);
-    vec2 pixel = gl_FragCoord.xy - view_block.view.jitter;
-    vec2 previous = (previous_clip.xy / previous_clip.z * 0.5 + 0.5) * vec2(view_block.view.size);
+    vec2 pixel = gl_FragCoord.xy - view.jitter;
+    vec2 previous = (previous_clip.xy / previous_clip.z * 0.5 + 0.5) * vec2(view.size);
     out_velocity = pixel - previous;
 }

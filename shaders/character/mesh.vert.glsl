@@ -12,8 +12,8 @@ layout(location = 4) out vec3 out_previous_clip;  // x, y, w
 void main() {
     uint i = gl_VertexIndex;
     SkinnedVertex v = vertices.at[i];
-    gl_Position = view_block.view.view_projection * vec4(v.position, 1.0);
-    vec4 previous_clip = view_block.view.previous_view_projection * vec4(v.previous, 1.0);
+    gl_Position = view.view_projection * vec4(v.position, 1.0);
+    vec4 previous_clip = view.previous_view_projection * vec4(v.previous, 1.0);
     out_position = v.position;
     out_normal = v.normal;
     out_previous_clip = previous_clip.xyw;

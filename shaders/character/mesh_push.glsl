@@ -5,13 +5,10 @@
 #include "common/view.glsl"
 #include "light/lights.glsl"
 
-layout(buffer_reference, scalar) readonly buffer ViewBlock { View view; };
 layout(buffer_reference, scalar) readonly buffer Texcoords { vec2 at[]; };
 layout(buffer_reference, scalar) readonly buffer Colors { vec4 at[]; };
 
 layout(push_constant, scalar) uniform Push {
-    ViewBlock view_block;
-    Lights lights;
     SkinnedVertices vertices;
     Texcoords texcoords;  // 0: none
     Colors colors;        // 0: white
@@ -24,5 +21,8 @@ layout(push_constant, scalar) uniform Push {
     float front_flip;    // and where it faces the eye: -1 if a mirrored two-sided mesh
     float hair_falloff;  // 1/m, extinction of light behind the closest hair
 };
+
+layout(set = 0, binding = 2, scalar) uniform Views { View view; };
+layout(set = 0, binding = 3, scalar) uniform LightsBlock { LightBlock lights; };
 
 #endif
