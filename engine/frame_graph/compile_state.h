@@ -28,7 +28,6 @@ struct ResourceState {
     SyncState whole;
     uint32_t split = kNoIndex;  ///< into sub_states, layer-major, once ranges differ
     MemoryBlock block;
-    bool transient = false;
     bool aliased = false;  ///< the first barrier still has to wait for the memory's former owners
 };
 
@@ -49,21 +48,24 @@ struct CompileState {
     Plan* plan = nullptr;
     Diagnostics* diagnostics = nullptr;
 
-    std::vector<uint32_t> seen_by;    // per resource: last pass that touched it (validation)
     std::vector<uint8_t> needed;      // per version: its content is read later or asked for
     std::vector<uint32_t> live_next;  // per version: the live pass that overwrites it
     std::vector<uint32_t>
         live_writer;              // per version: the live pass that wrote it, or the last before
     bool all_live = false;        // no pass is culled: live_next and live_writer are not filled
+    bool forward = false;         // every pass is declared after those it needs
     std::vector<uint32_t> stack;  // passes to visit
     std::vector<uint32_t> order;  // live passes, in execution order
     std::vector<uint32_t> edge_first, edge_to, edge_count, edge_next;
     std::vector<Readers> readers;       // per version
-    std::vector<ResourceState> states;  // per resource
+    std::vector<ResourceState> states;  // per resource; of a transient one once it is placed
     std::vector<SyncState> sub_states;
-    std::vector<uint32_t> externals;  // resources that are not transient
     std::vector<MemoryMap> maps;      // per pool; more than in use are kept for their memory
 
+    /// Every pass runs, where it is declared.
+    [[nodiscard]] bool in_declared_order() const {
+        return all_live && forward && !options->switches.random_order;
+    }
     /// The live pass that overwrites this version, or kNoIndex.
     [[nodiscard]] uint32_t next_writer(uint32_t version) const {
         if (!all_live) return live_next[version];
@@ -81,12 +83,30 @@ struct CompileState {
     }
 };
 
-// The phases, in order. Each returns false after reporting what stops the compilation.
+// The phases, in order. Each returns false after reporting what stops the compilation. validate()
+// also takes lifetimes, as if every pass lived and ran where it is declared; that nearly always
+// holds, and find_lifetimes() takes them again where it does not.
 bool validate(CompileState& s);
 bool cull(CompileState& s);
 bool order_passes(CompileState& s);
 void find_lifetimes(CompileState& s);
 bool schedule(CompileState& s);
+
+void begin_lifetimes(CompileState& s);
+/// Counts an access of the pass that runs at `position` to the lifetime of its resource.
+inline void count_access(CompileState& s, const AccessRecord& access, const AccessInfo& how,
+                         Placement& placement, uint32_t position) {
+    placement.usage |= access.image ? how.image_usage : how.buffer_usage;
+    if (placement.first_step == kNoIndex) placement.first_step = position;
+    placement.last_step = position;
+    if (access.write) return;
+    Readers& readers = s.readers[access.version];
+    readers.mixed_layouts =
+        readers.mixed_layouts || (readers.stages != 0 && readers.layout != how.layout);
+    readers.layout = how.layout;
+    readers.stages |= how.stages;
+    readers.access |= how.access;
+}
 
 /// Places a resource for its first use; its block carries who had the memory before.
 void place(CompileState& s, uint32_t resource);

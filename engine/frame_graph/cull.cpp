@@ -4,32 +4,37 @@ namespace vellus::graph {
 
 namespace {
 
-void want(CompileState& s, uint32_t version) {
+/// Marks the pass that writes the version; cull() comes to it later if it is declared before
+/// `cursor`, else the stack keeps it.
+void want(CompileState& s, uint32_t version, uint32_t cursor) {
     s.needed[version] = 1;
     const uint32_t writer = s.graph->versions()[version].writer;
     if (writer == kNoIndex || s.plan->alive[writer]) return;
     s.plan->alive[writer] = 1;
-    s.stack.push_back(writer);
+    if (writer >= cursor) s.stack.push_back(writer);
 }
 
 /// Who reads last frame's image needs this frame's to be written.
-void want_history(CompileState& s, const AccessRecord& access, const ResourceRecord& previous) {
+void want_history(CompileState& s, const AccessRecord& access, const ResourceRecord& previous,
+                  uint32_t cursor) {
     const ResourceRecord& next = s.graph->resources()[previous.partner];
     if (next.last_version == next.first_version) {
         s.report(Problem::kMissingHistory, access.pass, access.resource, access.where);
         return;
     }
-    want(s, next.last_version);
+    want(s, next.last_version, cursor);
 }
 
-void visit(CompileState& s, uint32_t pass) {
+void visit(CompileState& s, uint32_t pass, uint32_t cursor) {
     for (const AccessRecord& access : s.graph->accesses(pass)) {
         if (!access.write) {
-            want(s, access.version);
+            want(s, access.version, cursor);
             const ResourceRecord& resource = s.graph->resources()[access.resource];
-            if (resource.origin == Origin::kHistoryPrevious) want_history(s, access, resource);
+            if (resource.origin == Origin::kHistoryPrevious) {
+                want_history(s, access, resource, cursor);
+            }
         } else if (access.load == Load::kKeep || info(access.access).reads || !access.whole) {
-            want(s, s.graph->versions()[access.version].previous);
+            want(s, s.graph->versions()[access.version].previous, cursor);
         }
     }
 }
@@ -68,23 +73,26 @@ void link_live_writers(CompileState& s) {
 bool cull(CompileState& s) {
     const auto passes = s.graph->passes();
     const bool keep_all = s.options->switches.no_culling;
-    s.plan->alive.assign(passes.size(), 0);
+    const auto count = static_cast<uint32_t>(passes.size());
+    s.plan->alive.assign(count, keep_all ? 1 : 0);
     s.needed.assign(s.graph->versions().size(), 0);
     s.stack.clear();
-    for (uint32_t pass = 0; pass < passes.size(); ++pass) {
-        if (!keep_all && !passes[pass].side_effect) continue;
-        s.plan->alive[pass] = 1;
-        s.stack.push_back(pass);
+    for (const OutputRecord& output : s.graph->outputs()) want(s, output.version, count);
+    // Backwards, what is declared in order needs no stack.
+    uint32_t live = 0;
+    for (uint32_t cursor = count; cursor-- > 0;) {
+        if (passes[cursor].side_effect) s.plan->alive[cursor] = 1;
+        if (!s.plan->alive[cursor]) continue;
+        ++live;
+        visit(s, cursor, cursor);
+        while (!s.stack.empty()) {
+            const uint32_t pass = s.stack.back();
+            s.stack.pop_back();
+            ++live;
+            visit(s, pass, cursor);
+        }
     }
-    for (const OutputRecord& output : s.graph->outputs()) want(s, output.version);
-    while (!s.stack.empty()) {
-        const uint32_t pass = s.stack.back();
-        s.stack.pop_back();
-        visit(s, pass);
-    }
-    size_t live = 0;
-    for (const uint8_t alive : s.plan->alive) live += alive;
-    s.all_live = live == passes.size();
+    s.all_live = live == count;
     if (!s.all_live) link_live_writers(s);
     for (const OutputRecord& output : s.graph->outputs()) {
         const uint32_t overwriter = s.next_writer(output.version);

@@ -109,6 +109,8 @@ class GraphDescription {
         return accesses().subspan(passes_[pass].first_access, passes_[pass].access_count);
     }
     [[nodiscard]] std::span<const LoadOp> clears() const { return clears_; }
+    /// Resources that are not transient.
+    [[nodiscard]] std::span<const uint32_t> externals() const { return externals_; }
     [[nodiscard]] std::span<const OutputRecord> outputs() const { return outputs_; }
     /// Mistakes seen while describing.
     [[nodiscard]] std::span<const Diagnostic> problems() const { return problems_; }
@@ -121,8 +123,10 @@ class GraphDescription {
     template <class H>
     H first_handle(const ResourceRecord& resource) const;
     uint32_t touch(uint32_t pass, const Handle& handle, Access access, bool write,
-                   const ImageRange& range, const LoadOp& load, Where where);
+                   const ImageRange& range, Load load, const LoadOp* clear, Where where);
+    uint32_t add_version(uint32_t pass, const Handle& handle, Where where);
     AccessRecord& add_access(uint32_t pass);
+    AccessRecord& insert_access(uint32_t pass);
     bool check(Handle handle, uint32_t pass, Where where) {
         if (handle.generation == generation_ && handle.version < versions_.size() &&
             versions_[handle.version].resource == handle.index) {
@@ -139,6 +143,7 @@ class GraphDescription {
     std::vector<PassRecord> passes_;
     std::vector<AccessRecord> accesses_;
     std::vector<LoadOp> clears_;
+    std::vector<uint32_t> externals_;
     std::vector<OutputRecord> outputs_;
     std::vector<Diagnostic> problems_;
     Arena arena_;
@@ -158,3 +163,5 @@ void PassBuilder::execute(F record) {
 }
 
 }  // namespace vellus::graph
+
+#include "engine/frame_graph/description_inline.h"

@@ -4,23 +4,19 @@
 
 namespace vellus::graph {
 
-void find_lifetimes(CompileState& s) {
+void begin_lifetimes(CompileState& s) {
     s.plan->placements.assign(s.graph->resources().size(), {});
     s.readers.assign(s.graph->versions().size(), {});
-    for (uint32_t position = 0; position < s.order.size(); ++position) {
-        for (const AccessRecord& access : s.graph->accesses(s.order[position])) {
-            const AccessInfo& how = info(access.access);
-            Placement& placement = s.plan->placements[access.resource];
-            placement.usage |= access.image ? how.image_usage : how.buffer_usage;
-            if (placement.first_step == kNoIndex) placement.first_step = position;
-            placement.last_step = position;
-            if (access.write) continue;
-            Readers& readers = s.readers[access.version];
-            readers.mixed_layouts =
-                readers.mixed_layouts || (readers.stages != 0 && readers.layout != how.layout);
-            readers.layout = how.layout;
-            readers.stages |= how.stages;
-            readers.access |= how.access;
+}
+
+void find_lifetimes(CompileState& s) {
+    if (!s.in_declared_order()) {
+        begin_lifetimes(s);
+        for (uint32_t position = 0; position < s.order.size(); ++position) {
+            for (const AccessRecord& access : s.graph->accesses(s.order[position])) {
+                count_access(s, access, info(access.access), s.plan->placements[access.resource],
+                             position);
+            }
         }
     }
     for (const OutputRecord& output : s.graph->outputs()) {
@@ -62,6 +58,7 @@ void place(CompileState& s, uint32_t resource) {
     placement.offset = block.offset;
     placement.bytes = needs.bytes;
     ResourceState& state = s.states[resource];
+    state = {};
     state.block = block;
     if (block.tag.stages != 0) {
         state.aliased = true;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 
 #include "engine/frame_graph/compile_state.h"
 
@@ -102,6 +103,11 @@ void report_cycle(CompileState& s) {
 }  // namespace
 
 bool order_passes(CompileState& s) {
+    if (s.in_declared_order()) {
+        s.order.resize(s.plan->alive.size());
+        std::iota(s.order.begin(), s.order.end(), 0U);
+        return true;
+    }
     size_t live = 0;
     for (const uint8_t alive : s.plan->alive) live += alive;
     if (!s.options->switches.random_order) {

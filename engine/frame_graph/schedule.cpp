@@ -21,15 +21,11 @@ void begin(CompileState& s) {
                              .dst_access = kAllAccess,
                              .reason = Reason::kFrameStart,
                              .global = true});
-    const auto resources = s.graph->resources();
-    s.states.assign(resources.size(), {});
+    s.states.resize(s.graph->resources().size());
     s.sub_states.clear();
-    s.externals.clear();
-    for (uint32_t i = 0; i < resources.size(); ++i) {
-        const ResourceRecord& resource = resources[i];
-        s.states[i].transient = resource.origin == Origin::kTransient;
-        if (s.states[i].transient) continue;
-        s.externals.push_back(i);
+    for (const uint32_t i : s.graph->externals()) {
+        const ResourceRecord& resource = s.graph->resources()[i];
+        s.states[i] = {};
         SyncState& state = s.states[i].whole;
         if (resource.origin == Origin::kHistoryPrevious) {
             state.layout = kHistoryLayout;
@@ -143,7 +139,10 @@ void poison(CompileState& s, uint32_t resource) {
 /// Memory for a transient resource where it is used first.
 void make_room(CompileState& s, const AccessRecord& access, uint32_t step) {
     Placement& placement = s.plan->placements[access.resource];
-    if (placement.pool != kNoIndex || !s.states[access.resource].transient) return;
+    if (placement.pool != kNoIndex ||
+        s.graph->resources()[access.resource].origin != Origin::kTransient) {
+        return;
+    }
     place(s, access.resource);
     placement.first_step = step;
 }
@@ -204,7 +203,7 @@ bool schedule_pass(CompileState& s, uint32_t position) {
 /// Leaves what outlives the frame as its owner expects it.
 bool hand_over(CompileState& s) {
     bool complete = true;
-    for (const uint32_t index : s.externals) {
+    for (const uint32_t index : s.graph->externals()) {
         const ResourceRecord& resource = s.graph->resources()[index];
         const bool history =
             resource.origin == Origin::kHistoryNext && s.plan->placements[index].usage != 0;

@@ -33,9 +33,9 @@ bool format_allows(const CompileState& s, const ImageDesc& desc, const AccessInf
 }
 
 /// The kind of access fits the pass, the resource and its format.
-bool check_usage(CompileState& s, const AccessRecord& access, PassKind kind) {
+bool check_usage(CompileState& s, const AccessRecord& access, const AccessInfo& how,
+                 PassKind kind) {
     const ResourceRecord& resource = s.graph->resources()[access.resource];
-    const AccessInfo& how = info(access.access);
     const auto fail = [&](Problem problem) {
         s.report(problem, access.pass, access.resource, access.where);
         return false;
@@ -100,18 +100,31 @@ void check_conflicts(CompileState& s, const AccessRecord& access) {
     }
 }
 
+/// The pass is declared after whoever writes what it needs and before whoever overwrites it.
+bool follows(std::span<const VersionRecord> versions, const AccessRecord& access, uint32_t pass) {
+    const VersionRecord& version = versions[access.version];
+    const uint32_t writer = access.write ? versions[version.previous].writer : version.writer;
+    if (writer != kNoIndex && writer > pass) return false;
+    return access.write || version.next == kNoIndex || versions[version.next].writer >= pass;
+}
+
 }  // namespace
 
 bool validate(CompileState& s) {
     const auto passes = s.graph->passes();
-    s.seen_by.assign(s.graph->resources().size(), kNoIndex);
+    const auto versions = s.graph->versions();
+    begin_lifetimes(s);
+    s.forward = true;
     for (uint32_t pass = 0; pass < passes.size(); ++pass) {
         const PassKind kind = passes[pass].kind;
         bool usable = true;
         for (const AccessRecord& access : s.graph->accesses(pass)) {
-            usable = check_usage(s, access, kind) && usable;
-            if (s.seen_by[access.resource] == pass) check_conflicts(s, access);
-            s.seen_by[access.resource] = pass;
+            const AccessInfo& how = info(access.access);
+            usable = check_usage(s, access, how, kind) && usable;
+            Placement& placement = s.plan->placements[access.resource];
+            if (placement.last_step == pass) check_conflicts(s, access);
+            count_access(s, access, how, placement, pass);
+            s.forward = s.forward && follows(versions, access, pass);
         }
         if (kind == PassKind::kRaster && usable) check_attachments(s, pass);
     }
