@@ -26,8 +26,8 @@ MemoryNeeds packed_memory_needs(const void* /*user*/, const ResourceRecord& reso
                                 uint32_t /*usage*/) {
     if (resource.kind == ResourceKind::kBuffer) return {resource.buffer.bytes, 256, 1};
     const ImageDesc& image = resource.image;
-    uint64_t pixels = 0;
-    for (uint32_t mip = 0; mip < image.mips; ++mip) {
+    uint64_t pixels = uint64_t{image.width} * image.height;
+    for (uint32_t mip = 1; mip < image.mips; ++mip) {
         const uint64_t width = image.width >> mip, height = image.height >> mip;
         pixels += (width ? width : 1) * (height ? height : 1);
     }

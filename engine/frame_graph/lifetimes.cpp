@@ -58,14 +58,12 @@ void place(CompileState& s, uint32_t resource) {
     placement.offset = block.offset;
     placement.bytes = needs.bytes;
     ResourceState& state = s.states[resource];
-    state = {};
     state.block = block;
-    if (block.tag.stages != 0) {
-        state.aliased = true;
-        state.whole.write_stages = block.tag.stages;
-        state.whole.write_access = block.tag.write_access;
-        state.whole.last_step = block.tag.last_step;
-    }
+    state.split = kNoIndex;
+    state.aliased = block.tag.stages != 0;  // then the tag holds; else it is all zero
+    state.whole = {.write_stages = block.tag.stages,
+                   .write_access = block.tag.write_access,
+                   .last_step = state.aliased ? block.tag.last_step : kNoIndex};
 }
 
 void release(CompileState& s, uint32_t resource) {

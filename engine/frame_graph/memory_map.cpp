@@ -148,17 +148,8 @@ void MemoryMap::cut_back(uint32_t node, uint64_t bytes) {
     link(back);
 }
 
-MemoryBlock MemoryMap::allocate(uint64_t bytes, uint64_t alignment) {
-    bytes = align(std::max<uint64_t>(bytes, 1), uint64_t{1} << kGranuleBits);
-    alignment = std::max(alignment, uint64_t{1} << kGranuleBits);
-    if (warm_ != kNil) {
-        const uint32_t warm = warm_;
-        if (nodes_[warm].bytes == bytes && (nodes_[warm].offset & (alignment - 1)) == 0) {
-            warm_ = kNil;
-            return {warm, nodes_[warm].offset, nodes_[warm].tag};
-        }
-        settle();
-    }
+MemoryBlock MemoryMap::allocate_cold(uint64_t bytes, uint64_t alignment) {
+    if (warm_ != kNil) settle();
     uint32_t node = find(bytes, alignment);
     if (node != kNil) {
         unlink(node);
@@ -182,13 +173,6 @@ uint32_t MemoryMap::merge_with_after(uint32_t node) {
     if (last_ == after) last_ = node;
     spare_.push_back(after);
     return node;
-}
-
-void MemoryMap::free(const MemoryBlock& block, const MemoryTag& tag) {
-    assert(block.node < nodes_.size() && !nodes_[block.node].is_free && block.node != warm_);
-    if (warm_ != kNil) settle();
-    nodes_[block.node].tag = tag;  // the last owner waited for those before it
-    warm_ = block.node;
 }
 
 /// Joins the block freed last with its free neighbours and puts it into its bin.

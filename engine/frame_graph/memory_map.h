@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace vellus::graph {
@@ -24,8 +27,22 @@ struct MemoryBlock {
 class MemoryMap {
   public:
     void reset();
-    MemoryBlock allocate(uint64_t bytes, uint64_t alignment);
-    void free(const MemoryBlock& block, const MemoryTag& tag);
+    MemoryBlock allocate(uint64_t bytes, uint64_t alignment) {
+        bytes = (std::max<uint64_t>(bytes, 1) + kGranule - 1) & ~(kGranule - 1);
+        alignment = std::max(alignment, kGranule);
+        if (warm_ == kNil || nodes_[warm_].bytes != bytes ||
+            (nodes_[warm_].offset & (alignment - 1)) != 0) {
+            return allocate_cold(bytes, alignment);
+        }
+        const uint32_t warm = std::exchange(warm_, kNil);
+        return {warm, nodes_[warm].offset, nodes_[warm].tag};
+    }
+    void free(const MemoryBlock& block, const MemoryTag& tag) {
+        assert(block.node < nodes_.size() && !nodes_[block.node].is_free && block.node != warm_);
+        if (warm_ != kNil) settle();
+        nodes_[block.node].tag = tag;  // the last owner waited for those before it
+        warm_ = block.node;
+    }
     /// Bytes from 0 that were ever in use.
     [[nodiscard]] uint64_t high_water() const { return high_water_; }
 
@@ -34,6 +51,7 @@ class MemoryMap {
     static constexpr uint32_t kSubBits = 3;
     static constexpr uint32_t kSub = 1U << kSubBits;
     static constexpr uint32_t kGranuleBits = 6;  // 64 bytes
+    static constexpr uint64_t kGranule = uint64_t{1} << kGranuleBits;
     static constexpr uint32_t kLevels = 48;
 
     struct Node {
@@ -45,6 +63,7 @@ class MemoryMap {
         bool is_free = false;
     };
 
+    MemoryBlock allocate_cold(uint64_t bytes, uint64_t alignment);
     static uint32_t bin_of(uint64_t bytes);
     uint32_t new_node(const Node& node);
     uint32_t find(uint64_t bytes, uint64_t alignment) const;

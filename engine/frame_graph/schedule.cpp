@@ -67,18 +67,17 @@ Use use_of(const CompileState& s, const AccessRecord& access, uint32_t step) {
 
 void add_attachment(CompileState& s, const AccessRecord& access) {
     const ResourceRecord& resource = s.graph->resources()[access.resource];
-    Attachment attachment{
-        .resource = access.resource,
-        .range = access.range,
-        .layout = info(access.access).layout,
-        .store = s.needed[access.version] != 0 || resource.origin != Origin::kTransient,
-        .read_only = !access.write};
+    Attachment& attachment = s.plan->attachments.emplace_back();
+    attachment.resource = access.resource;
+    attachment.range = access.range;
+    attachment.layout = info(access.access).layout;
+    attachment.store = s.needed[access.version] != 0 || resource.origin != Origin::kTransient;
+    attachment.read_only = !access.write;
     if (access.clear != kNoIndex) {
         attachment.load = s.graph->clears()[access.clear];
     } else {
         attachment.load.op = access.load;
     }
-    s.plan->attachments.push_back(attachment);
 }
 
 void add_attachments(CompileState& s, Step& step) {
@@ -101,7 +100,10 @@ void add_attachments(CompileState& s, Step& step) {
 Step& begin_step(CompileState& s, StepKind kind, uint32_t index) {
     const auto first = static_cast<uint32_t>(s.plan->barriers.size());
     const auto to = static_cast<uint32_t>(s.plan->steps.size());
-    s.plan->steps.push_back({.kind = kind, .index = index, .first_barrier = first});
+    Step& step = s.plan->steps.emplace_back();
+    step.kind = kind;
+    step.index = index;
+    step.first_barrier = first;
     if (full_barriers(s)) {
         s.plan->barriers.push_back({.src_stages = kAllStagesAndHost,
                                     .src_access = VK_ACCESS_MEMORY_WRITE_BIT,
@@ -112,7 +114,7 @@ Step& begin_step(CompileState& s, StepKind kind, uint32_t index) {
                                     .reason = Reason::kFullBarrier,
                                     .global = true});
     }
-    return s.plan->steps.back();
+    return step;
 }
 
 void end_step(CompileState& s, Step& step) {
