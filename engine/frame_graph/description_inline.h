@@ -84,7 +84,7 @@ inline uint32_t GraphDescription::add_version(uint32_t pass, const Handle& handl
     return version;
 }
 
-inline uint32_t GraphDescription::touch(uint32_t pass, const Handle& handle, Access access,
+[[gnu::always_inline]] inline uint32_t GraphDescription::touch(uint32_t pass, const Handle& handle, Access access,
                                         bool write, const ImageRange& range, Load load,
                                         const LoadOp* clear, Where where) {
     if (!check(handle, pass, where)) return handle.version;
