@@ -3,6 +3,7 @@
 // What the phases of compile() share. Internal to this folder.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/frame_graph/access.h"
@@ -60,7 +61,7 @@ struct CompileState {
     std::vector<Readers> readers;       // per version
     std::vector<ResourceState> states;  // per resource; of a transient one once it is placed
     std::vector<SyncState> sub_states;
-    std::vector<MemoryMap> maps;      // per pool; more than in use are kept for their memory
+    std::vector<MemoryMap> maps;  // per pool; more than in use are kept for their memory
 
     /// Every pass runs, where it is declared.
     [[nodiscard]] bool in_declared_order() const {
@@ -94,13 +95,13 @@ bool schedule(CompileState& s);
 
 void begin_lifetimes(CompileState& s);
 /// Counts an access of the pass that runs at `position` to the lifetime of its resource.
-inline void count_access(CompileState& s, const AccessRecord& access, const AccessInfo& how,
-                         Placement& placement, uint32_t position) {
+inline void count_access(const AccessRecord& access, const AccessInfo& how, Placement& placement,
+                         std::span<Readers> readers_of, uint32_t position) {
     placement.usage |= access.image ? how.image_usage : how.buffer_usage;
     if (placement.first_step == kNoIndex) placement.first_step = position;
     placement.last_step = position;
     if (access.write) return;
-    Readers& readers = s.readers[access.version];
+    Readers& readers = readers_of[access.version];
     readers.mixed_layouts =
         readers.mixed_layouts || (readers.stages != 0 && readers.layout != how.layout);
     readers.layout = how.layout;

@@ -6,7 +6,7 @@ namespace {
 
 /// Marks the pass that writes the version; cull() comes to it later if it is declared before
 /// `cursor`, else the stack keeps it.
-void want(CompileState& s, uint32_t version, uint32_t cursor) {
+inline void want(CompileState& s, uint32_t version, uint32_t cursor) {
     s.needed[version] = 1;
     const uint32_t writer = s.graph->versions()[version].writer;
     if (writer == kNoIndex || s.plan->alive[writer]) return;
@@ -25,10 +25,11 @@ void want_history(CompileState& s, const AccessRecord& access, const ResourceRec
     want(s, next.last_version, cursor);
 }
 
-void visit(CompileState& s, uint32_t pass, uint32_t cursor) {
+inline void visit(CompileState& s, uint32_t pass, uint32_t cursor) {
     for (const AccessRecord& access : s.graph->accesses(pass)) {
         if (!access.write) {
             want(s, access.version, cursor);
+            if (s.graph->externals().empty()) continue;
             const ResourceRecord& resource = s.graph->resources()[access.resource];
             if (resource.origin == Origin::kHistoryPrevious) {
                 want_history(s, access, resource, cursor);

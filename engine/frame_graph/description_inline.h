@@ -84,9 +84,10 @@ inline uint32_t GraphDescription::add_version(uint32_t pass, const Handle& handl
     return version;
 }
 
-[[gnu::always_inline]] inline uint32_t GraphDescription::touch(uint32_t pass, const Handle& handle, Access access,
-                                        bool write, const ImageRange& range, Load load,
-                                        const LoadOp* clear, Where where) {
+[[gnu::always_inline]] inline uint32_t GraphDescription::touch(uint32_t pass, const Handle& handle,
+                                                               Access access, bool write,
+                                                               const ImageRange& range, Load load,
+                                                               const LoadOp* clear, Where where) {
     if (!check(handle, pass, where)) return handle.version;
     const ResourceRecord& resource = resources_[handle.index];
     const AccessInfo& how = info(access);
@@ -144,23 +145,22 @@ inline ImageHandle PassBuilder::write(ImageHandle image, Access access, const Im
     return image;
 }
 
-inline BufferHandle PassBuilder::write(BufferHandle buffer, Access access, Load load,
-                                       Where where) {
+inline BufferHandle PassBuilder::write(BufferHandle buffer, Access access, Load load, Where where) {
     buffer.version = graph_->touch(pass_, buffer, access, true, {}, load, nullptr, where);
     return buffer;
 }
 
 inline ImageHandle PassBuilder::color(ImageHandle image, const LoadOp& load,
                                       const ImageRange& range, Where where) {
-    image.version = graph_->touch(pass_, image, Access::kColorAttachment, true, range, load.op,
-                                  &load, where);
+    image.version =
+        graph_->touch(pass_, image, Access::kColorAttachment, true, range, load.op, &load, where);
     return image;
 }
 
 inline ImageHandle PassBuilder::depth(ImageHandle image, const LoadOp& load,
                                       const ImageRange& range, Where where) {
-    image.version = graph_->touch(pass_, image, Access::kDepthAttachment, true, range, load.op,
-                                  &load, where);
+    image.version =
+        graph_->touch(pass_, image, Access::kDepthAttachment, true, range, load.op, &load, where);
     return image;
 }
 

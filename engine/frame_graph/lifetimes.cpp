@@ -14,8 +14,8 @@ void find_lifetimes(CompileState& s) {
         begin_lifetimes(s);
         for (uint32_t position = 0; position < s.order.size(); ++position) {
             for (const AccessRecord& access : s.graph->accesses(s.order[position])) {
-                count_access(s, access, info(access.access), s.plan->placements[access.resource],
-                             position);
+                count_access(access, info(access.access), s.plan->placements[access.resource],
+                             s.readers, position);
             }
         }
     }

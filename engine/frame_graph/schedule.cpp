@@ -139,8 +139,7 @@ void poison(CompileState& s, uint32_t resource) {
 }
 
 /// Memory for a transient resource where it is used first.
-void make_room(CompileState& s, const AccessRecord& access, uint32_t step) {
-    Placement& placement = s.plan->placements[access.resource];
+void make_room(CompileState& s, const AccessRecord& access, Placement& placement, uint32_t step) {
     if (placement.pool != kNoIndex ||
         s.graph->resources()[access.resource].origin != Origin::kTransient) {
         return;
@@ -152,9 +151,9 @@ void make_room(CompileState& s, const AccessRecord& access, uint32_t step) {
 /// The switch: what takes over memory is filled with a pattern first, in a step of its own.
 void poison_new(CompileState& s, uint32_t pass) {
     for (const AccessRecord& access : s.graph->accesses(pass)) {
-        const Placement& placement = s.plan->placements[access.resource];
+        Placement& placement = s.plan->placements[access.resource];
         const bool placed = placement.pool != kNoIndex;
-        make_room(s, access, static_cast<uint32_t>(s.plan->steps.size()));
+        make_room(s, access, placement, static_cast<uint32_t>(s.plan->steps.size()));
         if (!placed && placement.pool != kNoIndex) poison(s, access.resource);
     }
 }
@@ -186,12 +185,12 @@ bool schedule_pass(CompileState& s, uint32_t position) {
     bool complete = true;
     Step& step = begin_step(s, StepKind::kPass, pass);
     for (const AccessRecord& access : s.graph->accesses(pass)) {
-        make_room(s, access, index);
+        Placement& placement = s.plan->placements[access.resource];
+        make_room(s, access, placement, index);
         if (!already_visible(s.states[access.resource], access, info(access.access), index)) {
             const bool defined = synchronize(s, use_of(s, access, index), s.plan->barriers);
             complete = has_content(s, access, defined) && complete;
         }
-        const Placement& placement = s.plan->placements[access.resource];
         if (placement.last_step == position && placement.pool != kNoIndex) {
             s.stack.push_back(access.resource);
         }

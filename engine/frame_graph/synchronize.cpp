@@ -69,8 +69,8 @@ void emit(CompileState& s, const SyncState& state, const Use& use, const ImageRa
 }
 
 /// Adds the barrier that `use` needs on one subresource, if any, and moves `state` past the use.
-void advance(CompileState& s, SyncState& state, const Use& use, const ImageRange& range,
-             std::vector<Barrier>& batch) {
+inline void advance(CompileState& s, SyncState& state, const Use& use, const ImageRange& range,
+                    std::vector<Barrier>& batch) {
     const bool transition = state.layout != use.layout;
     const bool visible = state.write_stages == 0 || (within(use.stages, state.visible_stages) &&
                                                      within(use.access, state.visible_access));

@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "engine/frame_graph/compile_state.h"
 
 namespace vellus::graph {
@@ -32,35 +34,27 @@ bool format_allows(const CompileState& s, const ImageDesc& desc, const AccessInf
     return (how.image_usage & ~supported) == 0;
 }
 
-/// The kind of access fits the pass, the resource and its format.
-bool check_usage(CompileState& s, const AccessRecord& access, const AccessInfo& how,
-                 PassKind kind) {
-    const ResourceRecord& resource = s.graph->resources()[access.resource];
-    const auto fail = [&](Problem problem) {
-        s.report(problem, access.pass, access.resource, access.where);
-        return false;
-    };
-    if ((how.pass_kinds >> static_cast<int>(kind) & 1) == 0) {
-        return fail(Problem::kUnsupportedUsage);
-    }
-    if (resource.kind == ResourceKind::kBuffer) {
+constexpr Problem kUsage = Problem::kUnsupportedUsage;
+constexpr Problem kFormat = Problem::kUnsupportedFormat;
+
+/// What keeps the access from fitting the kind of pass, the resource or its format, if anything.
+std::optional<Problem> check_usage(const CompileState& s, const AccessRecord& access,
+                                   const AccessInfo& how, const ResourceRecord& resource,
+                                   PassKind kind) {
+    if ((how.pass_kinds >> static_cast<int>(kind) & 1) == 0) return kUsage;
+    if (!access.image) {
         const bool host_sees = resource.origin == Origin::kImported;
-        if (how.buffer_usage == 0 || (access.access == Access::kHostRead && !host_sees)) {
-            return fail(Problem::kUnsupportedUsage);
-        }
-        return true;
+        const bool fits =
+            how.buffer_usage != 0 && (access.access != Access::kHostRead || host_sees);
+        return fits ? std::nullopt : std::optional(kUsage);
     }
-    if (how.image_usage == 0 || !in_image(access.range, resource.image)) {
-        return fail(Problem::kUnsupportedUsage);
+    if (how.image_usage == 0 || !in_image(access.range, resource.image)) return kUsage;
+    if (is_attachment(access.access)) {
+        if (access.range.mips != 1) return kUsage;
+    } else if (access.load == Load::kClear) {
+        return kUsage;
     }
-    if (access.load == Load::kClear && !is_attachment(access.access)) {
-        return fail(Problem::kUnsupportedUsage);
-    }
-    if (is_attachment(access.access) && access.range.mips != 1) {
-        return fail(Problem::kUnsupportedUsage);
-    }
-    if (!format_allows(s, resource.image, how)) return fail(Problem::kUnsupportedFormat);
-    return true;
+    return format_allows(s, resource.image, how) ? std::nullopt : std::optional(kFormat);
 }
 
 bool conflict(const CompileState& s, const AccessRecord& a, const AccessRecord& b) {
@@ -113,21 +107,31 @@ bool follows(std::span<const VersionRecord> versions, const AccessRecord& access
 bool validate(CompileState& s) {
     const auto passes = s.graph->passes();
     const auto versions = s.graph->versions();
+    const auto resources = s.graph->resources();
+    const auto accesses = s.graph->accesses();
     begin_lifetimes(s);
-    s.forward = true;
+    const std::span<Placement> placements = s.plan->placements;
+    const std::span<Readers> readers = s.readers;
+    bool forward = true;
     for (uint32_t pass = 0; pass < passes.size(); ++pass) {
         const PassKind kind = passes[pass].kind;
         bool usable = true;
-        for (const AccessRecord& access : s.graph->accesses(pass)) {
+        const uint32_t first = passes[pass].first_access;
+        for (const AccessRecord& access : accesses.subspan(first, passes[pass].access_count)) {
             const AccessInfo& how = info(access.access);
-            usable = check_usage(s, access, how, kind) && usable;
-            Placement& placement = s.plan->placements[access.resource];
+            const auto wrong = check_usage(s, access, how, resources[access.resource], kind);
+            if (wrong) {
+                s.report(*wrong, pass, access.resource, access.where);
+                usable = false;
+            }
+            Placement& placement = placements[access.resource];
             if (placement.last_step == pass) check_conflicts(s, access);
-            count_access(s, access, how, placement, pass);
-            s.forward = s.forward && follows(versions, access, pass);
+            count_access(access, how, placement, readers, pass);
+            forward = forward && follows(versions, access, pass);
         }
         if (kind == PassKind::kRaster && usable) check_attachments(s, pass);
     }
+    s.forward = forward;
     return s.diagnostics->empty();
 }
 
