@@ -10,8 +10,8 @@
 namespace vellus::asset {
 
 /// What one file may cost: everything built from it stays below `fixed_bytes` + `multiple` x its
-/// bytes on disk, the files it refers to included. Decoded images count apart: `image_pixels` in all,
-/// those beyond are left out.
+/// bytes on disk, the files it refers to included. Decoded images count apart: `image_pixels` in
+/// all, those beyond are left out.
 struct GltfLimits {
     uint64_t fixed_bytes = uint64_t{256} << 20U;
     uint64_t multiple = 64;

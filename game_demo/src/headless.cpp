@@ -6,6 +6,7 @@
 #include "engine/platform/clock.h"
 #include "engine/platform/files.h"
 #include "engine/platform/hash.h"
+#include "engine/platform/log.h"
 #include "game_demo/src/content.h"
 #include "game_demo/src/explain.h"
 #include "game_demo/src/progress.h"
@@ -83,7 +84,9 @@ Result<void> run_headless(gpu::Device& device, const Options& options) {
     if (!run) return run.error();
     run->device = device.traits();
     if (options.explain) print_explanation(**renderer);
-    return write_file(options.out / "stats.json", to_json(*run));
+    auto written = write_file(options.out / "stats.json", to_json(*run));
+    if (written) log_info("pictures and stats.json are in {}", options.out.string());
+    return written;
 }
 
 }  // namespace vellus::demo
