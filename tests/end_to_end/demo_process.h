@@ -46,14 +46,15 @@ class Process {
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;
 
-    /// Reads until the output holds `text`; false where the program ends or a minute passes first.
+    /// Reads until the output holds `text`; false where the program ends or five minutes pass in
+    /// silence.
     bool wait_for(const std::string& text) {
         while (output_.find(text) == std::string::npos) {
             if (!read_some()) return false;
         }
         return true;
     }
-    /// The exit status, after all output; -1 after a signal or a minute of silence.
+    /// The exit status, after all output; -1 after a signal or five minutes of silence.
     int wait() {
         while (read_some()) {
         }
@@ -67,7 +68,7 @@ class Process {
 
   private:
     bool read_some() {
-        constexpr int kSilenceMs = 60'000;
+        constexpr int kSilenceMs = 300'000;
         pollfd waiting{.fd = pipe_, .events = POLLIN, .revents = 0};
         timed_out_ = ::poll(&waiting, 1, kSilenceMs) == 0;
         if (timed_out_) return false;
