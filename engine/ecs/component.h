@@ -14,6 +14,11 @@ namespace vellus {
 
 using ComponentId = uint32_t;
 
+/// Moves an object to raw memory in another column; the column's last object fills the gap.
+using MoveRow = void(void* column, size_t row, size_t last, void* to_column, size_t to_row);
+/// Destroys an object; the column's last object fills the gap.
+using EraseRow = void(void* column, size_t row, size_t last);
+
 /// What a table needs to know of a component's C++ type.
 struct ComponentType {
     ComponentId id;
@@ -24,9 +29,8 @@ struct ComponentType {
     /// Moves `count` objects into raw memory; the sources are raw memory afterwards.
     void (*relocate)(void* to, void* from, size_t count);
     void (*destroy)(void* first, size_t count);
-    /// Takes the object at `hole` out of a column: into the raw memory `to`, or destroys it where
-    /// `to` is null. Then the column's `last` object fills the hole.
-    void (*take)(void* to, void* hole, void* last);
+    MoveRow* move;
+    EraseRow* erase;
 };
 
 namespace detail {
@@ -47,13 +51,28 @@ void destroy(void* first, size_t count) {
 }
 
 template <class T>
-void take(void* to, void* hole, void* last) {
-    if (to != nullptr) {
-        relocate<T>(to, hole, 1);
-    } else {
-        destroy<T>(hole, 1);
+inline void fill_gap(T* column, size_t row, size_t last) {
+    // A small object copied onto itself is cheaper than a test.
+    constexpr bool kCopyAnyway = std::is_trivially_copyable_v<T> && sizeof(T) <= 64;
+    if (kCopyAnyway) {
+        std::byte object[sizeof(T)];
+        std::memcpy(object, column + last, sizeof(T));
+        std::memcpy(static_cast<void*>(column + row), object, sizeof(T));
+    } else if (row != last) {
+        relocate<T>(column + row, column + last, 1);
     }
-    if (hole != last) relocate<T>(hole, last, 1);
+}
+
+template <class T>
+void move_row(void* column, size_t row, size_t last, void* to_column, size_t to_row) {
+    relocate<T>(static_cast<T*>(to_column) + to_row, static_cast<T*>(column) + row, 1);
+    fill_gap(static_cast<T*>(column), row, last);
+}
+
+template <class T>
+void erase_row(void* column, size_t row, size_t last) {
+    std::destroy_at(static_cast<T*>(column) + row);
+    fill_gap(static_cast<T*>(column), row, last);
 }
 
 template <class T>
@@ -62,8 +81,15 @@ ComponentType make_component_type() {
                   "a component is a plain value type");
     static_assert(std::is_nothrow_move_constructible_v<T> && std::is_nothrow_destructible_v<T>,
                   "a component must move and die without throwing: tables move their rows");
-    return {next_type_index<ComponentFamily>(), type_name<T>(), sizeof(T),  alignof(T),
-            std::is_trivially_copyable_v<T>,    relocate<T>,    destroy<T>, take<T>};
+    return {next_type_index<ComponentFamily>(),
+            type_name<T>(),
+            sizeof(T),
+            alignof(T),
+            std::is_trivially_copyable_v<T>,
+            relocate<T>,
+            destroy<T>,
+            move_row<T>,
+            erase_row<T>};
 }
 
 }  // namespace detail

@@ -44,7 +44,7 @@ void free_column(const ComponentType& type, std::byte* data, size_t capacity) {
 Table::Table(std::vector<const ComponentType*> types)
     : data_(types.empty() ? 0 : types.back()->id + 1, nullptr), types_(std::move(types)) {
     for (const ComponentType* type : types_) {
-        columns_.push_back({nullptr, type->size, copy_kind(type->trivial, type->size), type});
+        columns_.push_back({nullptr, type->move, type->erase, type});
     }
     set_capacity(kFirstCapacity);
 }
@@ -73,52 +73,36 @@ void Table::set_capacity(uint32_t rows) {
     capacity_ = rows;
 }
 
-/// Moves a row to another column; the last row fills the gap.
-inline void Table::Column::take(size_t row, size_t last, const Column& to, size_t to_row) const {
-    std::byte* const hole = data + row * size;
-    std::byte* const target = to.data + to_row * size;
-    const auto by_copy = [&](const auto& copy) {
-        copy(target, hole);
-        copy(hole, data + last * size);
-    };
-    if (!with_copy(copy_kind, size, by_copy)) type->take(target, hole, data + last * size);
-}
-
-inline void Table::Column::erase(size_t row, size_t last) const {
-    std::byte* const hole = data + row * size;
-    const auto by_copy = [&](const auto& copy) { copy(hole, data + last * size); };
-    if (!with_copy(copy_kind, size, by_copy)) type->take(nullptr, hole, data + last * size);
-}
-
-void Table::erase(uint32_t row) {
+Entity Table::erase(uint32_t row) {
     const size_t last = --size_;
-    for (const Column& column : columns_) column.erase(row, last);
-    entities_[row] = entities_[last];
+    for (const Column& column : columns_) column.erase(column.data, row, last);
+    return entities_[row] = entities_[last];
 }
 
-uint32_t Table::take_row(Entity entity, uint32_t row, const Neighbour& to) {
-    const uint32_t to_row = to.table->append(1);
-    to.table->entities_[to_row] = entity;
+Entity Table::take_row(uint32_t row, const Neighbour& to, uint32_t to_row) {
     const size_t last = --size_;
-    entities_[row] = entities_[last];
     const Column* from = columns_.data();
     const Column* const end = from + columns_.size();
     const Column* target = to.table->columns_.data();
     for (const Column* split = from + to.slot; from != split; ++from, ++target) {
-        from->take(row, last, *target, to_row);
+        from->move(from->data, row, last, target->data, to_row);
     }
     if (to.adds) {
         ++target;
     } else {
-        from++->erase(row, last);
+        from->erase(from->data, row, last);
+        ++from;
     }
-    for (; from != end; ++from, ++target) from->take(row, last, *target, to_row);
-    return to_row;
+    for (; from != end; ++from, ++target) {
+        from->move(from->data, row, last, target->data, to_row);
+    }
+    return entities_[row] = entities_[last];
 }
 
-void Table::set_neighbour(ComponentId id, Neighbour neighbour) {
+const Table::Neighbour* Table::set_neighbour(ComponentId id, Neighbour neighbour) {
     if (neighbours_.size() <= id) neighbours_.resize(id + 1);
     neighbours_[id] = neighbour;
+    return &neighbours_[id];
 }
 
 }  // namespace vellus

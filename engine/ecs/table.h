@@ -7,7 +7,6 @@
 
 #include "engine/ecs/component.h"
 #include "engine/ecs/entity.h"
-#include "engine/ecs/memory.h"
 
 namespace vellus {
 
@@ -58,28 +57,28 @@ class Table {
         size_ += static_cast<uint32_t>(count);
         return first;
     }
-    /// Destroys a row's components; the last row fills the gap.
-    void erase(uint32_t row);
-    /// Moves the entity's row to a new row, which is returned, of the other table; destroys the
-    /// component that one lacks, and leaves raw memory for the one it adds. The last row fills the
-    /// gap.
-    uint32_t take_row(Entity entity, uint32_t row, const Neighbour& to);
+    /// Destroys a row's components. The last row fills the gap; returns its entity, which is the
+    /// erased one itself where that was the last.
+    Entity erase(uint32_t row);
+    /// Moves the row's components to a new row of the other table; destroys the one it lacks and
+    /// leaves raw memory for the one it adds. The last row fills the gap, as in erase.
+    Entity take_row(uint32_t row, const Neighbour& to, uint32_t to_row);
 
     /// What lies behind adding (or, where this has it, removing) the component; null until set.
-    [[nodiscard]] Neighbour neighbour(ComponentId id) const noexcept {
-        return id < neighbours_.size() ? neighbours_[id] : Neighbour{};
+    /// Lasts until the next set_neighbour.
+    [[nodiscard]] const Neighbour* neighbour(ComponentId id) const noexcept {
+        if (id >= neighbours_.size() || neighbours_[id].table == nullptr) return nullptr;
+        return &neighbours_[id];
     }
-    void set_neighbour(ComponentId id, Neighbour neighbour);
+    /// Returns where it keeps the neighbour.
+    const Neighbour* set_neighbour(ComponentId id, Neighbour neighbour);
 
   private:
     struct Column {
         std::byte* data;
-        size_t size;  // of one object
-        CopyKind copy_kind;
+        MoveRow* move;  // of the type, kept here as they are called for each row that moves
+        EraseRow* erase;
         const ComponentType* type;
-
-        void take(size_t row, size_t last, const Column& to, size_t to_row) const;
-        void erase(size_t row, size_t last) const;
     };
 
     void grow(size_t rows);

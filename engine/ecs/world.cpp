@@ -43,16 +43,15 @@ Table& World::table_of(std::vector<const ComponentType*> types) {
     return *table;
 }
 
-Table::Neighbour World::find_neighbour(Table& table, const ComponentType& type) {
+const Table::Neighbour* World::find_neighbour(Table& table, const ComponentType& type) {
     std::vector<const ComponentType*> types(table.types().begin(), table.types().end());
     const bool adds = std::erase(types, &type) == 0;
     if (adds) types.push_back(&type);
     Table& other = table_of(std::move(types));
     const auto all = (adds ? other : table).types();
     const auto slot = static_cast<uint32_t>(std::ranges::find(all, &type) - all.begin());
-    table.set_neighbour(type.id, {&other, slot, adds});
     other.set_neighbour(type.id, {&table, slot, !adds});
-    return {&other, slot, adds};
+    return table.set_neighbour(type.id, {&other, slot, adds});
 }
 
 QueryState& World::register_query(uint32_t index, QueryState state) {
@@ -109,8 +108,7 @@ bool World::destroy(Entity entity) {
     if (record == nullptr) return false;
     Table& table = current_table(*record);
     const uint32_t row = record->row;
-    table.erase(row);
-    fill_gap(table, row);
+    records_[table.erase(row).index].row = row;
     record->table = nullptr;
     ++record->generation;
     if (record->generation != kRetired) {

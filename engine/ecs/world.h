@@ -118,7 +118,7 @@ class World : public Resources {
     template <class... Ts>
     Table& bundle_table();
     Table& table_of(std::vector<const ComponentType*> types);
-    Table::Neighbour find_neighbour(Table& table, const ComponentType& type);
+    const Table::Neighbour* find_neighbour(Table& table, const ComponentType& type);
     QueryState& register_query(uint32_t index, QueryState state);
 
     uint32_t append_slots(size_t count);
@@ -126,14 +126,12 @@ class World : public Resources {
     uint32_t append_rows(Table& table, size_t count);
     uint32_t move_row(Entity entity, Record& record, Table& from, const Table::Neighbour& to) {
         const uint32_t old_row = record.row;
-        const uint32_t row = from.take_row(entity, old_row, to);
+        const uint32_t row = to.table->append(1);
+        to.table->entity_data()[row] = entity;
+        records_[from.take_row(old_row, to, row).index].row = old_row;
         record.table = to.table;
         record.row = row;
-        fill_gap(from, old_row);
         return row;
-    }
-    void fill_gap(const Table& table, uint32_t row) {
-        if (row < table.size()) records_[table.entities()[row].index].row = row;
     }
 
     GrowingArray<Record> records_;

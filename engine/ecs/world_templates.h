@@ -53,8 +53,8 @@ bool World::add(Entity entity, T component) {
     Record* const record = find(entity);
     if (record == nullptr) return false;
     Table& from = current_table(*record);
-    Table::Neighbour to = from.neighbour(kComponent<T>.id);
-    if (!to.adds) [[unlikely]] {
+    const Table::Neighbour* to = from.neighbour(kComponent<T>.id);
+    if (to == nullptr || !to->adds) [[unlikely]] {
         if (T* const column = from.column<T>(); column != nullptr) {
             std::destroy_at(column + record->row);
             std::construct_at(column + record->row, std::move(component));
@@ -62,8 +62,8 @@ bool World::add(Entity entity, T component) {
         }
         to = find_neighbour(from, kComponent<T>);
     }
-    const uint32_t row = move_row(entity, *record, from, to);
-    std::construct_at(reinterpret_cast<T*>(to.table->slot_data(to.slot)) + row,
+    const uint32_t row = move_row(entity, *record, from, *to);
+    std::construct_at(reinterpret_cast<T*>(to->table->slot_data(to->slot)) + row,
                       std::move(component));
     return true;
 }
@@ -74,12 +74,12 @@ bool World::remove(Entity entity) {
     Record* const record = find(entity);
     if (record == nullptr) return false;
     Table& from = current_table(*record);
-    Table::Neighbour to = from.neighbour(kComponent<T>.id);
-    if (to.adds || to.table == nullptr) [[unlikely]] {
+    const Table::Neighbour* to = from.neighbour(kComponent<T>.id);
+    if (to == nullptr || to->adds) [[unlikely]] {
         if (!from.has(kComponent<T>.id)) return false;
         to = find_neighbour(from, kComponent<T>);
     }
-    move_row(entity, *record, from, to);
+    move_row(entity, *record, from, *to);
     return true;
 }
 

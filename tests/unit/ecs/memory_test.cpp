@@ -27,19 +27,5 @@ TEST(ResizeMemory, KeepsTheContents) {
     EXPECT_EQ(resize_memory(block, size, 0), nullptr);
 }
 
-TEST(WithCopy, CopiesExactlyTheObjectWhateverItsSize) {
-    for (size_t size = 1; size <= 70; ++size) {
-        std::vector<std::byte> from(size + 2);
-        for (size_t i = 0; i < from.size(); ++i) from[i] = static_cast<std::byte>(i + 1);
-        std::vector<std::byte> to(size + 2, std::byte{0xEE});
-        ASSERT_TRUE(with_copy(copy_kind(true, size), size,
-                              [&](const auto& copy) { copy(to.data() + 1, from.data() + 1); }));
-        EXPECT_EQ(to.front(), std::byte{0xEE});
-        EXPECT_EQ(to.back(), std::byte{0xEE});
-        EXPECT_TRUE(std::equal(to.begin() + 1, to.end() - 1, from.begin() + 1)) << size;
-    }
-    EXPECT_FALSE(with_copy(copy_kind(false, 8), 8, [](const auto&) { FAIL(); }));
-}
-
 }  // namespace
 }  // namespace vellus
