@@ -150,9 +150,9 @@ Schedule::Schedule(Schedule&&) noexcept = default;
 Schedule& Schedule::operator=(Schedule&&) noexcept = default;
 
 SystemOrder& Schedule::add_function(std::unique_ptr<System> system, FunctionKey key,
-                                    const std::source_location& where) {
+                                    SourceLine where) {
     std::string name = symbol_name(key);
-    if (name.empty()) name = fmt::format("{}:{}", where.file_name(), where.line());
+    if (name.empty()) name = fmt::format("{}:{}", where.file, where.line);
     return add_system(std::move(name), key, std::move(system));
 }
 

@@ -2,13 +2,13 @@
 
 #include <initializer_list>
 #include <memory>
-#include <source_location>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/ecs/system.h"
 #include "engine/platform/result.h"
+#include "engine/platform/source_line.h"
 
 namespace vellus {
 
@@ -57,8 +57,7 @@ class Schedule {
     /// Adds a function under its own name (from the program's symbols; FILE:LINE where stripped).
     /// The reference lasts as long as the schedule.
     template <class R, class... Ps>
-    SystemOrder& add(R (*function)(Ps...),
-                     const std::source_location& where = std::source_location::current()) {
+    SystemOrder& add(R (*function)(Ps...), SourceLine where = SourceLine::current()) {
         return add_function(make_system(function), reinterpret_cast<FunctionKey>(function), where);
     }
     template <class F>
@@ -81,8 +80,7 @@ class Schedule {
   private:
     struct State;
 
-    SystemOrder& add_function(std::unique_ptr<System> system, FunctionKey key,
-                              const std::source_location& where);
+    SystemOrder& add_function(std::unique_ptr<System> system, FunctionKey key, SourceLine where);
     SystemOrder& add_system(std::string name, FunctionKey key, std::unique_ptr<System> system);
 
     std::unique_ptr<State> state_;

@@ -5,21 +5,11 @@
 #include <cstdint>
 
 #include "engine/gpu/format.h"
+#include "engine/platform/source_line.h"
 
 namespace vellus::graph {
 
 constexpr uint32_t kNoIndex = ~0U;
-
-/// A line of source text; the default argument SourceLine::current() is the caller's. (clang 14 has
-/// no std::source_location.)
-struct SourceLine {
-    const char* file = "";
-    uint32_t line = 0;
-    static constexpr SourceLine current(const char* file = __builtin_FILE(),
-                                        uint32_t line = __builtin_LINE()) {
-        return {file, line};
-    }
-};
 
 /// A 2D image: size in pixels of mip 0, array layers, mip levels.
 struct ImageDesc {
