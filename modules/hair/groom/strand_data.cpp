@@ -204,8 +204,8 @@ class Filler {
         }
         const double scale = kParameterScale / along_.back();
         for (uint32_t p = begin; p < end; ++p) {
-            // At most 65535.5 and a few ulp, which truncates to 65535.
-            data_.point_parameter[p] = static_cast<uint16_t>(along_[p - begin] * scale + 0.5);
+            data_.point_parameter[p] =
+                static_cast<uint16_t>(std::lround(along_[p - begin] * scale));
         }
         data_.strand_length[strand] = static_cast<float>(along_.back());
     }

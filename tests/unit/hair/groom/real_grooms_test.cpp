@@ -28,7 +28,7 @@ LoadedGroom load(const char* name) {
 
 /// A fresh folder for files that a test writes.
 std::filesystem::path scratch(const char* name) {
-    const auto folder = std::filesystem::temp_directory_path() / "vellus_grooms" / name;
+    auto folder = std::filesystem::temp_directory_path() / "vellus_grooms" / name;
     std::filesystem::remove_all(folder);
     return folder;
 }
