@@ -60,10 +60,10 @@ TEST_P(TfxFile, EveryArrayIsFoundWhereTheHeaderSays) {
             EXPECT_EQ(groom->inverse_mass[p], fraction(p * stride + 3));
         }
     }
-    EXPECT_EQ(groom->strand_uvs.size(), arrays & kStrandUv ? kStrands : 0);
-    EXPECT_EQ(groom->point_uvs.size(), arrays & kPointUv ? kPoints : 0);
-    EXPECT_EQ(groom->thickness.size(), arrays & kThickness ? kStrands : 0);
-    EXPECT_EQ(groom->colors.size(), arrays & kColor ? kPoints : 0);
+    ASSERT_EQ(groom->strand_uvs.size(), arrays & kStrandUv ? kStrands : 0);
+    ASSERT_EQ(groom->point_uvs.size(), arrays & kPointUv ? kPoints : 0);
+    ASSERT_EQ(groom->thickness.size(), arrays & kThickness ? kStrands : 0);
+    ASSERT_EQ(groom->colors.size(), arrays & kColor ? kPoints : 0);
     if (arrays & kStrandUv) {
         EXPECT_EQ(groom->strand_uvs[2].y, fraction(5) + 1.0f);
     }
