@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +34,8 @@ struct LibraryGroom {
     float width = 0.0f;
     bool has_width_column = false;
     bool has_colors = false;
+    /// Colour of the whole groom where its file gives one and no column of them.
+    std::optional<glm::vec3> color;
     GroomReport report;
 };
 

@@ -51,6 +51,11 @@ std::vector<glm::vec3> outermost_points(const std::vector<glm::vec3>& points) {
     return result;
 }
 
+std::optional<glm::vec3> constant_color(const StrandData& strands) {
+    if (!strands.has_color || !strands.point_color.empty()) return std::nullopt;
+    return glm::vec3(strands.color);
+}
+
 scene::LocalTransform local_transform(const HairExtension& look) {
     return {.translation = look.translation,
             .rotation = glm::quat(look.rotation),
@@ -96,6 +101,7 @@ Result<uint32_t> add_strands(World& world, gpu::Device& device, const std::strin
                               .width = strands.width,
                               .has_width_column = !strands.point_width.empty(),
                               .has_colors = !strands.point_color.empty(),
+                              .color = constant_color(strands),
                               .report = report});
     return static_cast<uint32_t>(library.grooms.size() - 1);
 }

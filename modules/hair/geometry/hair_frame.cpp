@@ -112,9 +112,10 @@ HairInstance describe_instance(const LibraryGroom& groom, const HairMaterial& ma
     instance.segment_strand = strands.segment_strand.address();
     instance.strand_seed = strands.strand_seed.address();
     instance.flags = has_colors ? kHasColors : 0u;
-    instance.base_color = material.base_color;
+    const bool one_color = groom.color && material.use_groom_colors;
+    instance.base_color = one_color ? *groom.color : material.base_color;
     instance.color_variation = material.color_variation;
-    instance.tip_color = material.tip_color;
+    instance.tip_color = one_color ? *groom.color : material.tip_color;
     instance.gradient_start = material.gradient_start;
     instance.specular = material.specular;
     instance.roughness = material.roughness;

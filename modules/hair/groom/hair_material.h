@@ -25,7 +25,7 @@ struct HairMaterial {
     float roughness = 0.3f;
     /// Factor on the multiple-scattering term, in [0, 4].
     float scatter = 1.0f;
-    /// Sine of the cuticle scales' tilt, in [-0.2, 0.2]; two degrees in human hair.
+    /// Tilt of the cuticle scales in radians, in [-0.2, 0.2]; two degrees in human hair.
     float shift = 0.035f;
     /// Opacity of a strand, in [0, 1].
     float alpha = 1.0f;
