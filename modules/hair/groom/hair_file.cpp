@@ -172,7 +172,10 @@ Result<Groom> read_hair(std::span<const std::byte> bytes, const std::string& whe
     groom.default_thickness = header.thickness;
     groom.default_transparency = header.transparency;
     groom.default_color = {header.color[0], header.color[1], header.color[2]};
-    groom.has_default_color = true;
+    // What writers leave there when nobody chose a colour: zeros, or the white of the author's
+    // library.
+    groom.has_default_color =
+        groom.default_color != glm::vec3(0.0f) && groom.default_color != glm::vec3(1.0f);
     groom.info.assign(header.info.begin(), std::ranges::find(header.info, '\0'));
     return groom;
 }

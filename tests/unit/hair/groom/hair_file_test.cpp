@@ -142,6 +142,18 @@ TEST(HairFile, StrandTooLongForTheFormatIsRefusedOnWriting) {
     EXPECT_NE(refused.error().message().find("strand 1 has 65537 points"), std::string::npos);
 }
 
+TEST(HairFile, BlackOrWhiteByDefaultIsNoColour) {
+    for (const float value : {0.0f, 1.0f, 0.5f}) {
+        auto bytes = make_file(2);
+        for (size_t channel = 0; channel < 3; ++channel) overwrite(bytes, 28 + 4 * channel, value);
+        const auto groom = read_hair(bytes, "made");
+        ASSERT_TRUE(groom);
+        EXPECT_EQ(groom->has_default_color, value == 0.5f);
+        EXPECT_EQ(has_colors(*groom), value == 0.5f);
+        EXPECT_EQ(*write_hair(*groom), bytes);
+    }
+}
+
 TEST(HairFile, NonFiniteNumbersSurviveReadingAndWriting) {
     auto bytes = make_file(2);
     overwrite(bytes, 128, std::numeric_limits<float>::quiet_NaN());
