@@ -10,6 +10,7 @@
 #include "game_demo/src/app.h"
 #include "tests/end_to_end/demo_process.h"
 #include "tests/end_to_end/small_groom.h"
+#include "tests/support/own_folder.h"
 
 namespace vellus::demo {
 namespace {
@@ -20,15 +21,10 @@ using nlohmann::json;
 class HeadlessTest : public testing::Test {
   protected:
     void SetUp() override {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::temp_directory_path() / fmt::format("vellus_headless_{}", test->name());
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
         ::setenv("XDG_CACHE_HOME", (folder_ / "cache").c_str(), 1);
         groom_ = test::write_small_groom(folder_);
         out_ = folder_ / "out";
     }
-    void TearDown() override { fs::remove_all(folder_); }
 
     /// A run of the program, small unless `more` says otherwise.
     test::Ended run(std::vector<std::string> more) {
@@ -52,7 +48,8 @@ class HeadlessTest : public testing::Test {
         return names;
     }
 
-    fs::path folder_;
+    test::OwnFolder own_folder_{"headless"};
+    fs::path folder_ = own_folder_.path();
     fs::path groom_;
     fs::path out_;
 };
@@ -132,7 +129,8 @@ TEST_F(HeadlessTest, GraphSwitchesDoNotChangeThePicture) {
 }
 
 TEST_F(HeadlessTest, SavesTheFramesAskedForAndCountsNoWarmup) {
-    ASSERT_EQ(run({"--save", "0,2", "--warmup", "3"}).status, 0);
+    const auto ended = run({"--save", "0,2", "--warmup", "3"});
+    ASSERT_EQ(ended.status, 0) << ended.output;
     EXPECT_EQ(files(out_), (Names{"frame_0000.png", "frame_0002.png", "stats.json"}));
     EXPECT_EQ(stats()["frames"].size(), 4u);
     fs::remove_all(out_);

@@ -5,6 +5,7 @@
 #include "engine/asset/image_io.h"
 #include "tests/end_to_end/demo_process.h"
 #include "tests/end_to_end/small_groom.h"
+#include "tests/support/own_folder.h"
 #include "tests/support/virtual_display.h"
 
 namespace vellus::test {
@@ -19,14 +20,10 @@ class WindowTest : public testing::Test {
         display_ = VirtualDisplay::start();
         if (!display_) GTEST_SKIP() << "Xvfb is not installed";
         if (run({"xdotool", "version"}).status != 0) GTEST_SKIP() << "xdotool is not installed";
-        folder_ = fs::temp_directory_path() / "vellus_window";
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
         ::setenv("XDG_CACHE_HOME", (folder_ / "cache").c_str(), 1);
         ::unsetenv("WAYLAND_DISPLAY");
         groom_ = write_small_groom(folder_);
     }
-    void TearDown() override { fs::remove_all(folder_); }
 
     std::vector<std::string> in_window() const {
         return demo({groom_, "--validation", "--size", "320x240", "--out", folder_ / "pictures"});
@@ -46,7 +43,8 @@ class WindowTest : public testing::Test {
     }
 
     std::unique_ptr<VirtualDisplay> display_;
-    fs::path folder_;
+    OwnFolder own_folder_{"window"};
+    fs::path folder_ = own_folder_.path();
     fs::path groom_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "engine/gpu/pipeline_library.h"
 #include "engine/platform/files.h"
+#include "tests/support/own_folder.h"
 
 namespace vellus::gpu {
 namespace {
@@ -14,12 +15,6 @@ namespace fs = std::filesystem;
 
 class PipelineCacheTest : public testing::Test {
   protected:
-    void SetUp() override {
-        folder_ = fs::temp_directory_path() / "vellus_pipeline_cache";
-        fs::remove_all(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     /// One run of a program that makes one pipeline; returns what it found on disk.
     size_t run() {
         auto device = Device::create({.validation = true, .pipeline_cache_folder = folder_});
@@ -35,7 +30,8 @@ class PipelineCacheTest : public testing::Test {
         return files.front();
     }
 
-    fs::path folder_;
+    test::OwnFolder own_folder_{"pipeline_cache"};
+    fs::path folder_ = own_folder_.path() / "made when needed";
 };
 
 TEST_F(PipelineCacheTest, TheSecondRunLoadsWhatTheFirstKept) {

@@ -5,6 +5,7 @@
 #include "engine/platform/files.h"
 #include "engine/platform/log.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/own_folder.h"
 
 namespace vellus::gpu {
 namespace {
@@ -19,14 +20,8 @@ class ShaderReloadTest : public test::GpuTest {
 #ifdef NDEBUG
         GTEST_SKIP() << "shaders are reloaded in debug builds only";
 #endif
-        folder_ = fs::temp_directory_path() / "vellus_shader_reload";
-        fs::remove_all(folder_);
         fs::copy(fs::path(VELLUS_SOURCE_DIR) / "shaders", folder_, fs::copy_options::recursive);
         device().pipelines().set_source_folder(folder_);
-    }
-    void TearDown() override {
-        GpuTest::TearDown();
-        fs::remove_all(folder_);
     }
 
     void edit(const std::string& from, const std::string& to) {
@@ -64,7 +59,8 @@ class ShaderReloadTest : public test::GpuTest {
     }
 
     static constexpr const char* kShader = "common/clear_words.comp.glsl";
-    fs::path folder_;
+    test::OwnFolder own_folder_{"shader_reload"};
+    fs::path folder_ = own_folder_.path();
     int edits_ = 0;
 };
 
