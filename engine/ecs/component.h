@@ -54,7 +54,7 @@ template <class T>
 inline void fill_gap(T* column, size_t row, size_t last) {
     // A small object copied onto itself is cheaper than a test.
     constexpr bool kCopyAnyway = std::is_trivially_copyable_v<T> && sizeof(T) <= 64;
-    if (kCopyAnyway) {
+    if constexpr (kCopyAnyway) {
         std::byte object[sizeof(T)];
         std::memcpy(object, column + last, sizeof(T));
         std::memcpy(static_cast<void*>(column + row), object, sizeof(T));

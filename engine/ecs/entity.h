@@ -1,6 +1,5 @@
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <functional>
 
@@ -10,10 +9,13 @@ namespace vellus {
 /// destroyed entity stays dead for ever: a slot whose generations are used up is retired.
 struct Entity {
     uint32_t index = UINT32_MAX;
-    uint32_t generation =
-        0;  ///< Live entities start at 1; 0 marks "none" and Commands' pending ones.
+    /// Live entities start at 1; 0 marks "none" and Commands' pending ones.
+    uint32_t generation = 0;
 
-    friend constexpr auto operator<=>(const Entity&, const Entity&) = default;
+    friend constexpr bool operator==(const Entity&, const Entity&) = default;
+    friend constexpr bool operator<(const Entity& a, const Entity& b) noexcept {
+        return a.index != b.index ? a.index < b.index : a.generation < b.generation;
+    }
 };
 
 /// The handle of nothing; never alive.

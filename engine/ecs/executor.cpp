@@ -4,7 +4,7 @@
 
 namespace vellus {
 
-Executor::Executor(std::vector<System*> systems, const ScheduleGraph& graph,
+Executor::Executor(const std::vector<System*>& systems, const ScheduleGraph& graph,
                    const ScheduleOrder& order)
     : waiting_for_(std::make_unique<std::atomic<uint32_t>[]>(systems.size())) {
     for (System* system : systems) nodes_.push_back({system, 0, {}});

@@ -15,7 +15,8 @@ namespace vellus {
 /// Runs ordered systems phase by phase, those of a phase on all cores. Allocates only when made.
 class Executor {
   public:
-    Executor(std::vector<System*> systems, const ScheduleGraph& graph, const ScheduleOrder& order);
+    Executor(const std::vector<System*>& systems, const ScheduleGraph& graph,
+             const ScheduleOrder& order);
     void run(World& world);
 
   private:

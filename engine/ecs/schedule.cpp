@@ -191,7 +191,7 @@ Result<void> Schedule::build(World& world) {
         entry.system->prepare(world);
         systems.push_back(entry.system.get());
     }
-    state_->executor = std::make_unique<Executor>(std::move(systems), *graph, *ordered);
+    state_->executor = std::make_unique<Executor>(systems, *graph, *ordered);
     state_->order = std::move((*ordered).order);
     state_->world = &world;
     return {};
