@@ -38,6 +38,7 @@ class Executor {
     std::vector<Node> nodes_;
     std::vector<Phase> phases_;
     std::unique_ptr<std::atomic<uint32_t>[]> waiting_for_;  // by node, within one run
+    std::atomic<size_t> unfinished_{0};                     // systems of the phase
     oneapi::tbb::task_group tasks_;
 };
 

@@ -61,8 +61,8 @@ class Schedule {
         return add_function(make_system(function), reinterpret_cast<FunctionKey>(function), where);
     }
     template <class F>
-    SystemOrder& add(std::string name, F function) {
-        return add_system(std::move(name), nullptr, make_system(std::move(function)));
+    SystemOrder& add(std::string_view name, F function) {
+        return add_system(std::string(name), nullptr, make_system(std::move(function)));
     }
     /// Each set's systems run after those of the sets before it in the list.
     void order(std::initializer_list<std::string_view> sets);

@@ -142,6 +142,7 @@ std::vector<EcsCaseMaker> iteration_cases(bool quick) {
     std::vector<size_t> counts{10'000, 1'000'000, 8'000'000};
     if (quick) counts = {10'000, 100'000};
     std::vector<EcsCaseMaker> makers;
+    makers.reserve(counts.size() + 1);
     for (const size_t count : counts) {
         makers.push_back({fmt::format("iterate 2 components, {} entities", count),
                           [count] { return one_archetype(count); }});
