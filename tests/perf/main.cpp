@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdio>
+#include <exception>
 
 #include "tests/perf/bench.h"
 
@@ -11,7 +13,9 @@ std::vector<Benchmark>& benchmarks() {
 
 }  // namespace vellus::bench
 
-int main(int argc, char** argv) {
+namespace {
+
+int run(int argc, char** argv) {
     using vellus::bench::Benchmark;
     auto& all = vellus::bench::benchmarks();
     std::sort(all.begin(), all.end(),
@@ -19,11 +23,22 @@ int main(int argc, char** argv) {
 
     CLI::App app("Vellus benchmarks: each prints what it measured, and verifies what it computed");
     app.require_subcommand(1);
-    std::function<int()> run;
+    std::function<int()> chosen;
     for (const Benchmark& benchmark : all) {
         CLI::App* const command = app.add_subcommand(benchmark.name, benchmark.help);
-        command->callback([&run, chosen = benchmark.set_up(*command)] { run = chosen; });
+        command->callback([&chosen, work = benchmark.set_up(*command)] { chosen = work; });
     }
     CLI11_PARSE(app, argc, argv);
-    return run();
+    return chosen();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& error) {
+        std::fputs(error.what(), stderr);
+        return 1;
+    }
 }

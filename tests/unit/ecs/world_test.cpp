@@ -101,6 +101,7 @@ TEST(World, ASlotWhoseGenerationsAreUsedUpIsRetired) {
 TEST(World, MovesMoveOnlyComponents) {
     World world;
     std::vector<Entity> entities;
+    entities.reserve(100);
     for (int i = 0; i < 100; ++i) entities.push_back(world.spawn(Owner{std::make_unique<int>(i)}));
     for (int i = 0; i < 100; i += 3) world.add(entities[i], Frozen{});
     for (int i = 0; i < 100; i += 7) world.destroy(entities[i]);
