@@ -2,7 +2,8 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
-#include <ImfInputFile.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfRgbaFile.h>
 
@@ -113,7 +114,7 @@ ChannelNames choose_channels(const Imf::ChannelList& channels) {
 
 /// Reads some rows at a time, so that a header that lies about the size ends in an error before it
 /// costs memory.
-void read_channels(Imf::InputFile& file, const Imath::Box2i& window, ImageF& image) {
+void read_channels(Imf::InputPart& file, const Imath::Box2i& window, ImageF& image) {
     constexpr int kRows = 256;  // the most lines any compression packs together
     const ChannelNames names = choose_channels(file.header().channels());
     for (int y = window.min.y; y <= window.max.y; y += kRows) {
@@ -138,19 +139,21 @@ void read_channels(Imf::InputFile& file, const Imath::Box2i& window, ImageF& ima
 
 Result<ImageF> read_exr(std::span<const std::byte> bytes) {
     MemoryReader stream(bytes);
-    Imf::InputFile file(stream);
-    const Imath::Box2i window = file.header().dataWindow();
+    // This class only reads headers: the size can be judged before anything is allocated for it.
+    Imf::MultiPartInputFile file(stream);
+    const Imath::Box2i window = file.header(0).dataWindow();
     const uint64_t width = static_cast<uint64_t>(int64_t{window.max.x} - window.min.x + 1);
     const uint64_t height = static_cast<uint64_t>(int64_t{window.max.y} - window.min.y + 1);
     if (auto error = detail::check_size(width, height, bytes.size())) {
         return std::move(*error);
     }
     ImageF image{static_cast<uint32_t>(width), static_cast<uint32_t>(height), {}, {}};
-    const Imf::ChannelList& channels = file.header().channels();
+    const Imf::ChannelList& channels = file.header(0).channels();
     if (channels.findChannel("RY") != nullptr || channels.findChannel("BY") != nullptr) {
         read_chroma(stream, window, image);
     } else {
-        read_channels(file, window, image);
+        Imf::InputPart part(file, 0);
+        read_channels(part, window, image);
     }
     detail::repair_pixels(image);
     return image;
