@@ -8,8 +8,6 @@
 namespace vellus::asset::detail {
 namespace {
 
-constexpr const char* kExportAgain = "export it again";
-
 /// Translation, rotation and scale of a matrix; shear cannot be kept and is reported.
 void decompose(const std::vector<double>& m, const std::string& pointer, Context& context,
                Node& node) {
