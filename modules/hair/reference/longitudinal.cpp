@@ -36,11 +36,14 @@ double longitudinal_gaussian_energy(double beta, double sin_r) {
 }
 
 double longitudinal_deon(double v, double theta_i, double theta_r) {
-    const double ci = std::cos(theta_i);
-    const double cr = std::cos(theta_r);
-    const double across = ci - cr;
-    const double along = std::sin(theta_i) + std::sin(theta_r);
-    return bessel_i0e(ci * cr / v) * std::exp(-0.5 * (across * across + along * along) / v) /
+    return longitudinal_deon(v, {std::sin(theta_i), std::cos(theta_i)},
+                             {std::sin(theta_r), std::cos(theta_r)});
+}
+
+double longitudinal_deon(double v, Inclination i, Inclination r) {
+    const double across = i.cos - r.cos;
+    const double along = i.sin + r.sin;
+    return bessel_i0e(i.cos * r.cos / v) * std::exp(-0.5 * (across * across + along * along) / v) /
            (v * -std::expm1(-2.0 / v));
 }
 

@@ -19,4 +19,13 @@ double longitudinal_gaussian_energy(double beta, double sin_r);
 /// θr)². Integrates to 1 over cos θi dθi.
 double longitudinal_deon(double v, double theta_i, double theta_r);
 
+/// Sine and cosine (>= 0) of an inclination.
+struct Inclination {
+    double sin = 0.0;
+    double cos = 1.0;
+};
+
+/// The same without inverse trigonometry.
+double longitudinal_deon(double v, Inclination i, Inclination r);
+
 }  // namespace vellus::hair::reference
