@@ -41,9 +41,11 @@ double longitudinal_deon(double v, double theta_i, double theta_r) {
 }
 
 double longitudinal_deon(double v, Inclination i, Inclination r) {
-    const double across = i.cos - r.cos;
+    const double ci = std::abs(i.cos);
+    const double cr = std::abs(r.cos);
+    const double across = ci - cr;
     const double along = i.sin + r.sin;
-    return bessel_i0e(i.cos * r.cos / v) * std::exp(-0.5 * (across * across + along * along) / v) /
+    return bessel_i0e(ci * cr / v) * std::exp(-0.5 * (across * across + along * along) / v) /
            (v * -std::expm1(-2.0 / v));
 }
 

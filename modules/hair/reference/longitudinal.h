@@ -16,7 +16,8 @@ double longitudinal_gaussian_energy(double beta, double sin_r);
 
 /// d'Eon et al. 2011 eq. 7, M of variance `v` > 0, in the form that cannot overflow: I0e(x)
 /// e^(-d²/2v) / (v (1 - e^(-2/v))), x = cos θi cos θr / v, d² = (cos θi - cos θr)² + (sin θi + sin
-/// θr)². Integrates to 1 over cos θi dθi.
+/// θr)². Integrates to 1 over cos θi dθi. I0 is even: an inclination turned past 90° counts
+/// with |cos|.
 double longitudinal_deon(double v, double theta_i, double theta_r);
 
 /// Sine and cosine (>= 0) of an inclination.
