@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "modules/hair/reference/dielectric.h"
 #include "modules/hair/reference/quadrature.h"
 
 namespace vellus::hair::reference {
@@ -27,16 +28,6 @@ Fibre karis_fibre(const glsl::HairSurface& surface, int channel) {
             .reflection = 2.0 * surface.specular};
 }
 
-double fresnel_dielectric(double eta, double cosine) {
-    const double c = std::clamp(cosine, 0.0, 1.0);
-    const double inside2 = 1.0 - (1.0 - c * c) / (eta * eta);
-    if (inside2 <= 0.0) return 1.0;
-    const double inside = std::sqrt(inside2);
-    const double s = (c - eta * inside) / (c + eta * inside);
-    const double p = (eta * c - inside) / (eta * c + inside);
-    return 0.5 * (s * s + p * p);
-}
-
 double modified_index(double eta, double theta_d) {
     const double s = std::sin(theta_d);
     return std::sqrt(eta * eta - s * s) / std::max(std::abs(std::cos(theta_d)), 1e-300);
@@ -48,7 +39,7 @@ double exit_azimuth(int p, double modified, double h) {
 
 double path_attenuation(const Fibre& fibre, int p, double theta_d, double h) {
     const double cos_d = std::abs(std::cos(theta_d));
-    const double f = fresnel_dielectric(fibre.eta, cos_d * std::sqrt(std::max(1.0 - h * h, 0.0)));
+    const double f = fresnel_dielectric(cos_d * std::sqrt(std::max(1.0 - h * h, 0.0)), fibre.eta);
     if (p == 0) return f * fibre.reflection;
     const double sin_t = std::sin(theta_d) / fibre.eta;
     const double cos_t = std::sqrt(1.0 - sin_t * sin_t);

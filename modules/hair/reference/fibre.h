@@ -28,9 +28,6 @@ constexpr double kKarisAzimuthalTrt = 0.27207;
 /// by -2, 1, 4 times the tilt of the cuticle, absorption from C = e^(-4 σ_a), his azimuthal widths.
 Fibre karis_fibre(const glsl::HairSurface& surface, int channel);
 
-/// Reflectance of an unpolarised ray that meets a plane of index `eta` with this cosine >= 0.
-double fresnel_dielectric(double eta, double cosine);
-
 /// η' = √(η² - sin² θd) / cos θd: the index of the normal plane's optics (Bravais).
 double modified_index(double eta, double theta_d);
 

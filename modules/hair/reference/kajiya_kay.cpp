@@ -4,12 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "modules/hair/reference/dielectric.h"
+
 namespace vellus::hair::reference {
 
 KajiyaKay kajiya_kay_parameters(const glsl::HairSurface& surface, int channel) {
     const double beta = std::max(static_cast<double>(surface.roughness) * surface.roughness,
                                  static_cast<double>(glsl::kHairMinBeta));
-    const double f0 = fresnel_dielectric(1.55, 1.0);
+    const double f0 = fresnel_dielectric(1.0, 1.55);
     return {.diffuse = surface.base_color[channel] / (std::numbers::pi * std::numbers::pi),
             .specular = 2.0 * surface.specular * f0 /
                         (2.0 * std::numbers::pi * beta * std::sqrt(2.0 * std::numbers::pi)),
