@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vellus::asset {
 
@@ -86,6 +87,24 @@ void JsonFields::text(std::string_view name, std::string& value) {
         return fail(name, fmt::format("is {}", field->type_name()), "give a string");
     }
     value = field->get<std::string>();
+}
+
+void JsonFields::index_or_text(std::string_view name, std::optional<uint32_t>& index,
+                               std::string& value) {
+    const json* field = find(name);
+    if (field == nullptr) return;
+    if (field->is_string()) {
+        value = field->get<std::string>();
+        return;
+    }
+    const bool whole = field->is_number_integer() && field->get<int64_t>() >= 0 &&
+                       field->get<int64_t>() <= std::numeric_limits<uint32_t>::max();
+    if (!whole) {
+        const std::string given =
+            field->is_number() ? field->dump() : std::string(field->type_name());
+        return fail(name, fmt::format("is {}", given), "give a whole number from 0, or a name");
+    }
+    index = field->get<uint32_t>();
 }
 
 void JsonFields::choice(std::string_view name, std::span<const std::string_view> allowed,

@@ -27,6 +27,8 @@ class JsonFields {
     void numbers(std::string_view name, double low, double high, std::span<double> values);
     void boolean(std::string_view name, bool& value);
     void text(std::string_view name, std::string& value);
+    /// A whole number from 0 or a string, as the file has it.
+    void index_or_text(std::string_view name, std::optional<uint32_t>& index, std::string& value);
     /// A string that must be one of `allowed`.
     void choice(std::string_view name, std::span<const std::string_view> allowed,
                 std::string& value);

@@ -9,6 +9,7 @@
 #include "modules/hair/groom/groom_report.h"
 #include "modules/hair/groom/hair_material.h"
 #include "modules/hair/techniques.h"
+#include "modules/scene/bounds.h"
 
 namespace vellus::hair {
 
@@ -28,6 +29,9 @@ struct HairShadow {
 struct LibraryGroom {
     std::string name;
     StrandBuffers strands;
+    /// Points and first points of strands as on the device, for binding and dynamics.
+    std::vector<glm::vec3> positions;
+    std::vector<uint32_t> strand_begin;
     Bounds bounds;  ///< node space, metres
     /// Its outermost points in many directions: what a camera must see to see all of it.
     std::vector<glm::vec3> outermost;
@@ -38,6 +42,15 @@ struct LibraryGroom {
     std::optional<glm::vec3> color;
     GroomReport report;
 };
+
+/// Box around the strands with their width, in node space.
+inline scene::Box groom_box(const LibraryGroom& groom) {
+    scene::Box box;
+    if (groom.bounds.empty()) return box;
+    box.include(glm::dvec3(groom.bounds.low) - static_cast<double>(groom.width));
+    box.include(glm::dvec3(groom.bounds.high) + static_cast<double>(groom.width));
+    return box;
+}
 
 /// All grooms of the world. Resource.
 struct HairLibrary {

@@ -1,5 +1,7 @@
 #include "modules/hair/register.h"
 
+#include "modules/character/deform.h"
+#include "modules/hair/binding/deform_passes.h"
 #include "modules/hair/geometry/hair_passes.h"
 #include "modules/light/environment.h"
 #include "modules/scene/stages.h"
@@ -12,13 +14,22 @@ void register_hair(World& world, Schedule& schedule) {
     world.insert_resource(HairFrame{});
     world.insert_resource(HairPipelines{});
     world.insert_resource(HairShadowMaps{});
+    world.insert_resource(HairBindings{});
+    world.insert_resource(HairPoses{});
+    world.insert_resource(HairDeformation{});
+    if (world.find_resource<character::DeformColumns>() == nullptr) {
+        world.emplace_resource<character::DeformColumns>();
+    }
     schedule.add(update_hair_bounds).in(scene::kTransforms).after(scene::propagate_transforms);
+    schedule.add(pose_hair).in(scene::kView);
     schedule.add(gather_hair)
         .in(scene::kGather)
         .after(light::gather_lights)
         .after(light::gather_environment);
-    schedule.add(assign_hair_shadows).in(scene::kGather).after(gather_hair);
-    schedule.add(describe_hair_projection).in(scene::kStrands);
+    schedule.add(assign_hair_points).in(scene::kGather).after(gather_hair);
+    schedule.add(assign_hair_shadows).in(scene::kGather).after(assign_hair_points);
+    schedule.add(describe_hair_deformation).in(scene::kStrands);
+    schedule.add(describe_hair_projection).in(scene::kStrands).after(describe_hair_deformation);
     schedule.add(describe_hair_shadows).in(scene::kShadows);
     schedule.add(describe_hair).in(scene::kHair);
 }

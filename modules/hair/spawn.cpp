@@ -6,6 +6,7 @@
 
 #include "engine/platform/jobs.h"
 #include "engine/platform/log.h"
+#include "modules/hair/binding/bind_hair.h"
 #include "modules/hair/components.h"
 #include "modules/hair/groom/groom_file.h"
 #include "modules/hair/groom/upright.h"
@@ -96,6 +97,8 @@ Result<uint32_t> add_strands(World& world, gpu::Device& device, const std::strin
     auto& library = world.resource<HairLibrary>();
     library.grooms.push_back({.name = name,
                               .strands = std::move(*buffers),
+                              .positions = strands.positions,
+                              .strand_begin = strands.strand_begin,
                               .bounds = strands.bounds,
                               .outermost = outermost_points(strands.positions),
                               .width = strands.width,
@@ -133,13 +136,20 @@ Result<void> spawn_scene_hair(World& world, gpu::Device& device, uint32_t instan
         const std::string* json =
             scene::find_extension(asset.nodes[node].extensions, kHairExtensionName);
         if (!json || placed.nodes[node] == kNoEntity) continue;
-        auto look = parse_hair_extension(*json, fmt::format("{}: node {} '{}'", asset.path.string(),
-                                                            node, asset.nodes[node].name));
+        const std::string where =
+            fmt::format("{}: node {} '{}'", asset.path.string(), node, asset.nodes[node].name);
+        auto look = parse_hair_extension(*json, where);
         if (!look) return look.error();
         for (const std::string& warning : look->warnings) log_warning("{}", warning);
-        auto spawned = spawn_hair(world, device, asset.path.parent_path() / look->groom, *look,
-                                  placed.nodes[node]);
+        const std::filesystem::path groom = asset.path.parent_path() / look->groom;
+        auto spawned = spawn_hair(world, device, groom, *look, placed.nodes[node]);
         if (!spawned) return spawned.error();
+        if (!look->binding) continue;
+        auto carrier = find_binding_node(asset, *look->binding, where);
+        if (!carrier) return carrier.error();
+        if (auto bound = bind_hair(world, device, *spawned, placed.nodes[*carrier]); !bound) {
+            return bound;
+        }
     }
     return {};
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <optional>
 
 namespace vellus::hair {
 
@@ -89,6 +91,7 @@ HairDraw describe_draw(const LibraryGroom& groom, const glm::dmat4& world,
     const bool given = width.root > 0.0f;
     const bool from_column = !given && groom.has_width_column;
     return {.strands = &groom.strands,
+            .positions = groom.strands.positions.address(),
             .world = world,
             .width = from_column ? 0.0f : (given ? width.root : groom.width),
             .tip_scale = width.tip_scale,
@@ -105,7 +108,7 @@ HairInstance describe_instance(const LibraryGroom& groom, const HairMaterial& ma
     const StrandBuffers& strands = groom.strands;
     const bool has_colors = groom.has_colors && material.use_groom_colors;
     HairInstance instance{};
-    instance.positions = strands.positions.address();
+    instance.positions = instance.previous_positions = strands.positions.address();
     instance.parameters = strands.parameters.address();
     instance.colors = strands.colors.address();
     instance.segment_point = strands.segment_point.address();
@@ -125,6 +128,22 @@ HairInstance describe_instance(const LibraryGroom& groom, const HairMaterial& ma
     instance.shadow_falloff = shadow.falloff;
     instance.shadow_first = shadow.first;
     return instance;
+}
+
+/// Whether, and from where, points of this groom are its own this frame.
+std::optional<HairDeform> describe_deform(const HairBinding* binding, const HairMoves* moves,
+                                          const glm::dmat4& world, const glm::dmat4& previous_world,
+                                          const HairPoses& poses) {
+    HairDeform deform{.anchor = world[3]};
+    if (binding != nullptr && binding->pose != kNoPose) {
+        deform.pose = binding->pose;
+        deform.anchor = poses.list[binding->pose].anchor;
+        return deform;
+    }
+    if (moves == nullptr || !moves->now) return std::nullopt;
+    deform.node = scene::relative_affine(world, deform.anchor);
+    deform.previous_node = scene::relative_affine(previous_world, deform.anchor);
+    return deform;
 }
 
 }  // namespace
@@ -151,47 +170,49 @@ std::string_view text(EffectReason reason) {
 
 void update_hair_bounds(HairBoundsQuery hair, Res<const HairLibrary> library) {
     hair.each([&](const Hair& item, const scene::WorldTransform& world, scene::WorldBounds& out) {
-        const Bounds& bounds = library->grooms[item.groom].bounds;
-        scene::Box box;
-        if (!bounds.empty()) {
-            const glm::dvec3 margin(library->grooms[item.groom].width);
-            box.include(glm::dvec3(bounds.low) - margin);
-            box.include(glm::dvec3(bounds.high) + margin);
-        }
-        out.box = scene::transform(world.matrix, box);
+        out.box = scene::transform(world.matrix, groom_box(library->grooms[item.groom]));
     });
 }
 
-void gather_hair(Query<const Hair, const scene::WorldTransform, const scene::PreviousWorldTransform,
-                       const scene::WorldBounds, const HairMaterial, const HairWidth,
-                       const HairShadow, const HairTechniques>
-                     hair,
-                 Res<const HairLibrary> library, Res<const scene::ViewState> view,
+void gather_hair(HairQuery hair, Res<const HairLibrary> library, Res<const HairBindings> bindings,
+                 Res<const HairPoses> poses, Res<const scene::ViewState> view,
                  Res<const light::LightSet> lights, Res<HairFrame> frame) {
     frame->instances.clear();
     frame->draws.clear();
     frame->casters.clear();
     frame->effects.clear();
+    frame->deforms.clear();
     frame->points = frame->segments = 0;
     const scene::View& v = view->view;
     const glm::dvec3 camera = view->pose.position;
-    hair.each([&](const Hair& item, const scene::WorldTransform& world,
+    hair.each([&](Entity entity, const Hair& item, const scene::WorldTransform& world,
                   const scene::PreviousWorldTransform& before, const scene::WorldBounds& bounds,
                   const HairMaterial& material, const HairWidth& width, const HairShadow& shadow,
-                  const HairTechniques& chosen) {
+                  const HairTechniques& chosen, const HairBinding* binding,
+                  const HairMoves* moves) {
         const LibraryGroom& groom = library->grooms[item.groom];
         const HairEffects effects =
             plan(item, groom, material, chosen, in_view(bounds.box, *view), lights->block);
         frame->effects.push_back(effects);
         HairDraw draw = describe_draw(groom, world.matrix, material, width, effects.techniques);
-        if (effects.techniques.shadow != ShadowTechnique::kNone) frame->casters.push_back(draw);
+        const bool casts = effects.techniques.shadow != ShadowTechnique::kNone;
+        if (!effects.drawn && !casts) return;
+        glm::dmat4 previous_world = before.known ? before.matrix : world.matrix;
+        if (auto deform = describe_deform(binding, moves, world.matrix, previous_world, *poses)) {
+            deform->entity = entity;
+            deform->strands = &groom.strands;
+            if (deform->pose != kNoPose) deform->bound = &bindings->list[binding->roots];
+            draw.deform = static_cast<uint32_t>(frame->deforms.size());
+            draw.world = previous_world = glm::translate(glm::dmat4(1.0), deform->anchor);
+            frame->deforms.push_back(*deform);
+        }
+        if (casts) frame->casters.push_back(draw);
         if (!effects.drawn) return;
 
         HairInstance instance = describe_instance(groom, material, shadow, effects.techniques);
-        instance.to_relative = affine(world.matrix, camera);
+        instance.to_relative = affine(draw.world, camera);
         instance.to_clip = v.view_projection_unjittered * instance.to_relative;
-        instance.previous_to_clip = v.previous_view_projection *
-                                    affine(before.known ? before.matrix : world.matrix, camera);
+        instance.previous_to_clip = v.previous_view_projection * affine(previous_world, camera);
         draw.to_clip = v.view_projection * instance.to_relative;
         draw.first_id = frame->segments;
         draw.rect = pixels_of(bounds.box, *view);

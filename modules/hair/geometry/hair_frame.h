@@ -6,6 +6,7 @@
 #include "engine/ecs/system.h"
 #include "engine/gpu/command_buffer.h"
 #include "modules/character/components.h"
+#include "modules/hair/binding/hair_pose.h"
 #include "modules/hair/components.h"
 #include "modules/light/light_set.h"
 #include "modules/scene/bounds.h"
@@ -22,6 +23,7 @@ struct HairInstance {
     glm::mat4 to_clip;
     glm::mat4 previous_to_clip;
     VkDeviceAddress positions;
+    VkDeviceAddress previous_positions;
     VkDeviceAddress parameters;
     VkDeviceAddress colors;
     VkDeviceAddress segment_point;
@@ -40,7 +42,7 @@ struct HairInstance {
     float shadow_falloff;
     float shadow_first;
 };
-static_assert(sizeof(HairInstance) == 304);
+static_assert(sizeof(HairInstance) == 312);
 
 /// A rectangle of pixels, `end` not included.
 struct PixelRect {
@@ -48,9 +50,27 @@ struct PixelRect {
     glm::ivec2 end{0};
 };
 
+constexpr uint32_t kNotDeformed = ~0U;
+
+/// A groom whose points this frame are not its rest points: carried by a mesh, or free to be moved.
+/// Its points of this frame, and of the last, lie in HairFrame::deformed in metres from `anchor`.
+struct HairDeform {
+    Entity entity;
+    const StrandBuffers* strands = nullptr;
+    const BoundGroom* bound = nullptr;  ///< null: its node carries it
+    uint32_t pose = kNoPose;            ///< into HairPoses, where bound
+    glm::dvec3 anchor{0.0};             ///< world
+    glm::mat4x3 node{1.0f};  ///< groom to metres from the anchor, where its node carries it
+    glm::mat4x3 previous_node{1.0f};
+    VkDeviceAddress points = 0;  ///< packed vec3 by point of the groom; known after kGather
+    VkDeviceAddress previous_points = 0;
+};
+
 /// What passes need to rasterise one groom.
 struct HairDraw {
     const StrandBuffers* strands = nullptr;
+    VkDeviceAddress positions = 0;   ///< packed vec3; `world` takes them to the world
+    uint32_t deform = kNotDeformed;  ///< into HairFrame::deforms
     glm::dmat4 world{1.0};
     glm::mat4 to_clip{1.0f};  ///< jittered
     float width = 0.0f;       ///< metres in the world; 0: from the column
@@ -95,26 +115,30 @@ struct HairFrame {
     std::vector<HairDraw> draws;          ///< the same grooms
     std::vector<HairDraw> casters;        ///< grooms that shadow, in view or not
     std::vector<HairEffects> effects;     ///< all grooms
+    std::vector<HairDeform> deforms;      ///< drawn or casting grooms with points of their own
     uint32_t points = 0;
     uint32_t segments = 0;
     std::vector<gpu::UniformSlice> instance_blocks;  ///< uploads of `instances`
+    graph::BufferHandle deformed;                    ///< points of `deforms`; invalid without any
     graph::BufferHandle projected;                   ///< of this frame's graph, as the next
     graph::BufferHandle visibility;                  ///< closest segment of each pixel
 };
 
-/// Hair of its own: the box of an entity with a mesh belongs to the character module.
+/// Hair of its own: the box of an entity with a mesh belongs to the character module, that of bound
+/// hair to pose_hair.
 using HairBoundsQuery = Query<const Hair, const scene::WorldTransform, scene::WorldBounds,
-                              Without<character::MeshSlot>>;
+                              Without<character::MeshSlot>, Without<HairBinding>>;
+using HairQuery =
+    Query<Entity, const Hair, const scene::WorldTransform, const scene::PreviousWorldTransform,
+          const scene::WorldBounds, const HairMaterial, const HairWidth, const HairShadow,
+          const HairTechniques, const HairBinding*, const HairMoves*>;
 
 /// System: boxes of hair in the world, widened by a strand.
 void update_hair_bounds(HairBoundsQuery hair, Res<const HairLibrary> library);
 
 /// System: which grooms this frame draws, how, and why.
-void gather_hair(Query<const Hair, const scene::WorldTransform, const scene::PreviousWorldTransform,
-                       const scene::WorldBounds, const HairMaterial, const HairWidth,
-                       const HairShadow, const HairTechniques>
-                     hair,
-                 Res<const HairLibrary> library, Res<const scene::ViewState> view,
+void gather_hair(HairQuery hair, Res<const HairLibrary> library, Res<const HairBindings> bindings,
+                 Res<const HairPoses> poses, Res<const scene::ViewState> view,
                  Res<const light::LightSet> lights, Res<HairFrame> frame);
 
 }  // namespace vellus::hair

@@ -50,7 +50,7 @@ ProjectPush project_push(const HairDraw& draw, const glm::mat4& to_clip, glm::ve
                          float pixels_per_metre) {
     const StrandBuffers& strands = *draw.strands;
     return {.to_clip = to_clip,
-            .positions = strands.positions.address(),
+            .positions = draw.positions,
             .parameters = strands.parameters.address(),
             .widths = strands.widths.address(),
             .projected = 0,
@@ -102,6 +102,7 @@ void describe_hair_projection(Res<HairFrame> hair, Res<HairPipelines> pipelines,
     hair->projected =
         frame->graph.create_buffer("hair projected", {hair->points * kProjectedPointBytes});
     auto pass = frame->graph.add_pass("hair/project", PassKind::kCompute);
+    if (hair->deformed) pass.read(hair->deformed, Access::kStorageRead);
     hair->projected = pass.write(hair->projected, Access::kStorageWrite, graph::Load::kDiscard);
     const float pixels_per_metre = 1.0f / frame->pixel_angle;
     pass.execute([draws = std::span<const HairDraw>(hair->draws), pixels_per_metre,
@@ -129,6 +130,7 @@ graph::BufferHandle describe_light_projection(const HairFrame& hair, const light
     auto projected =
         frame.graph.create_buffer("hair light projected", {points * kProjectedPointBytes});
     auto pass = frame.graph.add_pass("hair/shadow_project", PassKind::kCompute);
+    if (hair.deformed) pass.read(hair.deformed, Access::kStorageRead);
     projected = pass.write(projected, Access::kStorageWrite, graph::Load::kDiscard);
     pass.execute([casters = std::span<const HairDraw>(hair.casters), projected,
                   to_shadow = lights.world_to_shadow[index],
@@ -245,7 +247,7 @@ graph::BufferHandle describe_visibility(const HairFrame& hair, HairPipelines& pi
 const gpu::Pipeline*& shade_slot(HairPipelines& pipelines, const HairDraw& draw,
                                  const light::LightBlock& lights) {
     return pipelines.shade[lights.count][draw.shadowed ? 1 : 0][draw.environment_lit ? 1 : 0]
-                          [lights.opaque_casters > 0 ? 1 : 0];
+                          [lights.opaque_casters > 0 ? 1 : 0][draw.deform != kNotDeformed ? 1 : 0];
 }
 
 bool make_pipelines(const HairFrame& hair, const light::LightBlock& lights,
@@ -264,7 +266,7 @@ bool make_pipelines(const HairFrame& hair, const light::LightBlock& lights,
                 {kSampledNearest, kSampledNearest, kStorage, kStorage, kUniform, kUniform,
                  kUniform},
                 {lights.count, draw.shadowed ? 1u : 0u, draw.environment_lit ? 1u : 0u,
-                 lights.opaque_casters > 0 ? 1u : 0u});
+                 lights.opaque_casters > 0 ? 1u : 0u, draw.deform != kNotDeformed ? 1u : 0u});
         });
     }
     return ready;
@@ -281,6 +283,7 @@ void describe_hair(Res<HairFrame> hair, Res<const light::LightSet> lights,
     auto pass = frame->graph.add_pass("hair/shade", PassKind::kCompute);
     pass.read(visibility, Access::kStorageRead);
     pass.read(hair->projected, Access::kStorageRead);
+    if (hair->deformed) pass.read(hair->deformed, Access::kStorageRead);
     if (lights->block.tiles > 0 && !hair->casters.empty()) {
         pass.read(frame->hair_shadows, Access::kStorageRead);
     }

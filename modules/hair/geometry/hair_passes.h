@@ -14,8 +14,8 @@ struct HairPipelines {
     const gpu::Pipeline* visibility = nullptr;
     const gpu::Pipeline* visibility_still = nullptr;
     const gpu::Pipeline* shadow_depth = nullptr;
-    /// By number of lights, shadowed, environment lit, opaque casters.
-    std::array<std::array<std::array<std::array<const gpu::Pipeline*, 2>, 2>, 2>,
+    /// By number of lights, shadowed, environment lit, opaque casters, deformed.
+    std::array<std::array<std::array<std::array<std::array<const gpu::Pipeline*, 2>, 2>, 2>, 2>,
                light::kMaxLights + 1>
         shade{};
 };

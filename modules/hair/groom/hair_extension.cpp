@@ -122,6 +122,17 @@ void read_techniques(JsonFields& fields, TechniqueIds& ids) {
     });
 }
 
+void read_binding(JsonFields& fields, std::optional<HairBindingChoice>& binding) {
+    fields.object("binding", [&](JsonFields& inner) {
+        HairBindingChoice& choice = binding.emplace();
+        inner.index_or_text("mesh", choice.node, choice.name);
+        if (!choice.node && choice.name.empty()) {
+            inner.fail("mesh", "is missing or empty",
+                       "give the index or the name of a node with a mesh");
+        }
+    });
+}
+
 }  // namespace
 
 glm::dmat4 HairExtension::transform() const {
@@ -142,6 +153,7 @@ Result<HairExtension> parse_hair_extension(std::string_view json, const std::str
     read_width(fields, hair.width);
     read_material(fields, hair.material);
     read_techniques(fields, hair.techniques);
+    read_binding(fields, hair.binding);
     if (fields.error()) return *fields.error();
     hair.warnings = fields.unknown_fields();
     return hair;

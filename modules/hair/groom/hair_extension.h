@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,12 @@ struct TechniqueIds {
     std::string environment;
 };
 
+/// The node whose mesh carries the roots: by index, else by name.
+struct HairBindingChoice {
+    std::optional<uint32_t> node;
+    std::string name;
+};
+
 /// VELLUS_hair on a glTF node: a groom file that moves with the node.
 /// assets/schema/VELLUS_hair.schema.json is the format for people and editors.
 struct HairExtension {
@@ -35,6 +42,8 @@ struct HairExtension {
     HairWidth width;
     HairMaterial material;
     TechniqueIds techniques;
+    /// Empty: the groom moves rigidly with its node.
+    std::optional<HairBindingChoice> binding;
     /// Unknown fields and clamped values, one line each; the caller logs them.
     std::vector<std::string> warnings;
 

@@ -11,6 +11,7 @@ struct HairInstance {
     mat4 to_clip;           // groom to clip space, not jittered
     mat4 previous_to_clip;  // the same last frame
     Vec3s positions;
+    Vec3s previous_positions;  // last frame's; the same where the groom is rigid
     Uints parameters;
     Uvec2s colors;
     Uints segment_point;
@@ -35,6 +36,7 @@ struct HairSample {
     vec3 position;  // groom space
     vec3 tangent;   // groom space, root to tip, not unit
     float parameter;
+    float along;  // from the segment's first point to its second, in [0, 1]
     uint strand;
 };
 
@@ -60,8 +62,15 @@ HairSample hair_sample(HairInstance hair, ProjectedPoints projected, uint segmen
                          t1 * inversesqrt(max(dot(t1, t1), 1.0e-20)), t);
     if (dot(result.tangent, result.tangent) < 1.0e-6) result.tangent = direction;
     result.parameter = mix(u0, u1, t);
+    result.along = t;
     result.strand = hair.segment_strand.at[segment];
     return result;
+}
+
+/// Where that point was last frame; for grooms whose points move.
+vec3 hair_previous_position(HairInstance hair, HairSample at, uint segment) {
+    uint i = hair.segment_point.at[segment];
+    return mix(hair.previous_positions.at[i], hair.previous_positions.at[i + 1u], at.along);
 }
 
 /// Base colour there: gradient from root to tip, the groom's own colours, brightness by strand.

@@ -15,6 +15,7 @@ layout(constant_id = 0) const uint kLightCount = 4;
 layout(constant_id = 1) const bool kShadowed = true;
 layout(constant_id = 2) const bool kEnvironmentLit = true;
 layout(constant_id = 3) const bool kOpaqueCasters = true;
+layout(constant_id = 4) const bool kDeformed = false;  // its points move by themselves
 
 layout(push_constant, scalar) uniform Push {
     LongWords visibility;
@@ -76,7 +77,8 @@ void main() {
     vec3 radiance = shade(surface, position, tangent);
     imageStore(color, pixel, vec4(min(radiance, vec3(60000.0)), 1.0));
 
-    vec4 before = hair.previous_to_clip * vec4(at.position, 1.0);
+    vec3 previous = kDeformed ? hair_previous_position(hair, at, segment) : at.position;
+    vec4 before = hair.previous_to_clip * vec4(previous, 1.0);
     vec2 moved = view.cut != 0u || before.w <= 0.0
                      ? vec2(0.0)
                      : view_velocity(view, hair.to_clip * vec4(at.position, 1.0), before);
