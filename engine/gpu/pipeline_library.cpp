@@ -212,8 +212,15 @@ Result<VkPipeline> PipelineLibrary::build_raster(const RasterInfo& info, VkPipel
         .depthTestEnable = info.depth != DepthMode::kNone,
         .depthWriteEnable = info.depth == DepthMode::kTestWrite,
         .depthCompareOp = VK_COMPARE_OP_GREATER_OR_EQUAL};
-    const std::vector<VkPipelineColorBlendAttachmentState> attachments(info.color_formats.size(),
-                                                                       {.colorWriteMask = 0xf});
+    const std::vector<VkPipelineColorBlendAttachmentState> attachments(
+        info.color_formats.size(), {.blendEnable = info.blend,
+                                    .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
+                                    .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+                                    .colorBlendOp = VK_BLEND_OP_ADD,
+                                    .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+                                    .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+                                    .alphaBlendOp = VK_BLEND_OP_ADD,
+                                    .colorWriteMask = 0xf});
     const VkPipelineColorBlendStateCreateInfo blend{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
         .attachmentCount = static_cast<uint32_t>(attachments.size()),

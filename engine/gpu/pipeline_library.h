@@ -42,6 +42,7 @@ struct RasterInfo {
     Format depth_format = Format::kUndefined;
     DepthMode depth = DepthMode::kNone;  ///< reversed Z: greater or equal passes
     bool cull_back = false;
+    bool blend = false;  ///< color over what is there by its alpha (not premultiplied)
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     auto operator<=>(const RasterInfo&) const = default;
 };
