@@ -36,15 +36,20 @@ Result<void> use_sky(World& world, gpu::Device& device, const Sky& sky) {
     return {};
 }
 
-Entity spawn_sun(World& world, const Sky& sky) {
-    const SunLight sun = sky_sun(sky);
+scene::LocalTransform sun_transform(const Sky& sky) {
     // A light shines along -Z: turn +Z towards the sun.
-    const glm::quat turn = glm::rotation(glm::vec3(0.0f, 0.0f, 1.0f), sun.to_sun);
-    return world.spawn(
-        scene::LocalTransform{.rotation = turn}, scene::WorldTransform{},
-        scene::PreviousWorldTransform{},
-        scene::Light{
-            .kind = asset::LightKind::kDirectional, .color = sun.irradiance, .intensity = 1.0f});
+    return {.rotation = glm::rotation(glm::vec3(0.0f, 0.0f, 1.0f), sky_sun(sky).to_sun)};
+}
+
+scene::Light sun_light(const Sky& sky) {
+    return {.kind = asset::LightKind::kDirectional,
+            .color = sky_sun(sky).irradiance,
+            .intensity = 1.0f};
+}
+
+Entity spawn_sun(World& world, const Sky& sky) {
+    return world.spawn(sun_transform(sky), scene::WorldTransform{}, scene::PreviousWorldTransform{},
+                       sun_light(sky));
 }
 
 }  // namespace vellus::light

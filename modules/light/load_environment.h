@@ -6,6 +6,7 @@
 #include "engine/gpu/device.h"
 #include "modules/light/environment_extension.h"
 #include "modules/light/sky.h"
+#include "modules/scene/components.h"
 
 namespace vellus::light {
 
@@ -17,7 +18,9 @@ Result<void> load_environment(World& world, gpu::Device& device, const Environme
 /// The default sky becomes the Environment.
 Result<void> use_sky(World& world, gpu::Device& device, const Sky& sky);
 
-/// The sun that belongs to the sky, as a light entity.
+/// The sun that belongs to the sky: how it stands, how it shines, and both as a light entity.
+scene::LocalTransform sun_transform(const Sky& sky);
+scene::Light sun_light(const Sky& sky);
 Entity spawn_sun(World& world, const Sky& sky);
 
 }  // namespace vellus::light
