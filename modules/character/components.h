@@ -13,6 +13,10 @@ struct AnimationPlayer {
     double phase = 0.0;  ///< seconds ahead of `time`, so that a crowd is out of step
     double speed = 1.0;
     bool loop = true;
+    /// A second clip mixed in, always looping: 0 is `animation` alone, 1 the other alone.
+    uint32_t other = asset::kNone;
+    double other_time = 0.0;
+    float mix = 0.0f;
 };
 
 /// Where a mesh's joints and morph weights lie in the DeformColumns; given by bind_meshes.
