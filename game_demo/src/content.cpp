@@ -41,25 +41,33 @@ bool is_groom(const asset::SceneAsset& scene) {
     return lines;
 }
 
-Result<void> load_environment(World& world, gpu::Device& device, const asset::SceneAsset& scene) {
+Result<LoadedContent> use_default_sky(World& world, gpu::Device& device) {
+    if (auto made = light::use_sky(world, device, {}); !made) return made.error();
+    return LoadedContent{.default_sky = true};
+}
+
+Result<LoadedContent> load_environment(World& world, gpu::Device& device,
+                                       const asset::SceneAsset& scene) {
     const std::string* json =
         scene::find_extension(scene.extensions, light::kEnvironmentExtensionName);
-    if (!json) return light::use_sky(world, device, {});
+    if (!json) return use_default_sky(world, device);
     auto environment = light::parse_environment_extension(*json, scene.path.string());
     if (!environment) return environment.error();
     for (const std::string& warning : environment->warnings) log_warning("{}", warning);
-    return light::load_environment(world, device, *environment, scene.path.parent_path());
+    auto done = light::load_environment(world, device, *environment, scene.path.parent_path());
+    if (!done) return done.error();
+    return LoadedContent{};
 }
 
-Result<void> load_scene(World& world, gpu::Device& device,
-                        const std::shared_ptr<const asset::SceneAsset>& scene) {
+Result<LoadedContent> load_scene(World& world, gpu::Device& device,
+                                 const std::shared_ptr<const asset::SceneAsset>& scene) {
     for (const std::string& warning : scene->warnings) log_warning("{}", warning);
     auto instance = scene::instantiate(world, scene);
     if (!instance) return instance.error();
     auto meshes = world.resource<character::MeshLibrary>().update(
         device, world.resource<scene::SceneLibrary>());
-    if (!meshes) return meshes;
-    if (auto hair = hair::spawn_scene_hair(world, device, *instance); !hair) return hair;
+    if (!meshes) return meshes.error();
+    if (auto hair = hair::spawn_scene_hair(world, device, *instance); !hair) return hair.error();
     if (!scene->animations.empty()) {
         const Entity root = world.resource<scene::SceneLibrary>().instances[*instance].root;
         world.add(root, character::AnimationPlayer{});
@@ -67,7 +75,8 @@ Result<void> load_scene(World& world, gpu::Device& device,
     return load_environment(world, device, *scene);
 }
 
-Result<void> load_file(World& world, gpu::Device& device, const std::filesystem::path& path) {
+Result<LoadedContent> load_file(World& world, gpu::Device& device,
+                                const std::filesystem::path& path) {
     if (is_gltf(path)) {
         auto scene = asset::load_gltf(path);
         if (!scene) return scene.error();
@@ -78,7 +87,7 @@ Result<void> load_file(World& world, gpu::Device& device, const std::filesystem:
     }
     auto hair = hair::spawn_hair(world, device, path, {}, kNoEntity);
     if (!hair) return hair.error();
-    return light::use_sky(world, device, {});
+    return use_default_sky(world, device);
 }
 
 template <class Component>
@@ -138,20 +147,27 @@ Result<void> place_camera(Renderer& renderer) {
 
 std::filesystem::path content_path(const Options& options) {
     if (!options.scene.empty()) return options.scene;
-    return std::filesystem::path(VELLUS_ASSET_DIR) / "scenes" / "portrait.gltf";
+    return scene_folder() / "portrait.gltf";
 }
 
-Result<void> load_content(Renderer& renderer, gpu::Device& device, const Options& options) {
+std::filesystem::path scene_folder() {
+    return std::filesystem::path(VELLUS_ASSET_DIR) / "scenes";
+}
+
+Result<LoadedContent> load_content(Renderer& renderer, gpu::Device& device,
+                                   const Options& options) {
     World& world = renderer.world();
     auto& step = world.resource<scene::FixedStep>();
     step.dt = options.dt;
     step.seed = options.seed;
     renderer.resize(options.size[0], options.size[1]);
-    if (auto loaded = load_file(world, device, content_path(options)); !loaded) return loaded;
+    auto loaded = load_file(world, device, content_path(options));
+    if (!loaded) return loaded.error();
     if (first_with<scene::Light>(world) == kNoEntity) light::spawn_sun(world, {});
     set_techniques(world, options.techniques);
     world.resource<temporal::TemporalSettings>().enabled = !options.no_taa;
-    return place_camera(renderer);
+    if (auto placed = place_camera(renderer); !placed) return placed.error();
+    return *loaded;
 }
 
 }  // namespace vellus::demo

@@ -79,15 +79,52 @@ bool steer(Orbit& orbit, const Input& input, double height) {
     return steered;
 }
 
+void look_around(Orbit& orbit, const Input& input, double height) {
+    // The camera stays where it is; the point it looks at moves.
+    const glm::dvec3 eye = pose_of(orbit).position;
+    double right = 0.0;
+    double down = 0.0;
+    if (input.button(MouseButton::kLeft).held || input.button(MouseButton::kRight).held) {
+        right = kTurnPerHeight * input.cursor_dx / std::max(height, 1.0);
+        down = kTurnPerHeight * input.cursor_dy / std::max(height, 1.0);
+    }
+    if (input.gamepad.connected) {
+        right += kStickTurn * stick(input.gamepad.axes[2]);
+        down += kStickTurn * stick(input.gamepad.axes[3]);
+    }
+    turn(orbit, right, down);
+    orbit.target += eye - pose_of(orbit).position;
+}
+
+glm::dvec3 movement(const Input& input) {
+    const auto axis = [&](Key less, Key more) {
+        return (input.key(more).held ? 1.0 : 0.0) - (input.key(less).held ? 1.0 : 0.0);
+    };
+    glm::dvec3 wish(axis(Key::kA, Key::kD) + axis(Key::kLeft, Key::kRight), axis(Key::kQ, Key::kE),
+                    axis(Key::kW, Key::kS) + axis(Key::kUp, Key::kDown));
+    if (input.gamepad.connected) {
+        wish.x += stick(input.gamepad.axes[0]);
+        wish.z += stick(input.gamepad.axes[1]);
+    }
+    return glm::clamp(wish, -1.0, 1.0);
+}
+
 Wishes read_wishes(const Input& input) {
     const auto pressed = [&](Key key) { return input.key(key).pressed; };
-    Wishes wishes{.quit = pressed(Key::kEscape),
-                  .pause = pressed(Key::kSpace),
-                  .step = pressed(Key::kN),
-                  .screenshot = pressed(Key::kF12) || pressed(Key::kP),
-                  .help = pressed(Key::kF1) || pressed(Key::kH),
-                  .taa = pressed(Key::kT),
-                  .home = pressed(Key::kHome)};
+    Wishes wishes{
+        .quit = pressed(Key::kEscape),
+        .pause = pressed(Key::kSpace),
+        .step = pressed(Key::kN),
+        .screenshot = pressed(Key::kF12) || pressed(Key::kP),
+        .help = pressed(Key::kF1) || pressed(Key::kH),
+        .panels = pressed(Key::kTab),
+        .taa = pressed(Key::kT),
+        .home = pressed(Key::kHome),
+        .next_camera = pressed(Key::kC),
+        .turntable = pressed(Key::kR),
+        .turntable_pictures = pressed(Key::kO),
+        .next_scene = pressed(Key::kF4),
+        .hours = (pressed(Key::kPageUp) ? 0.5 : 0.0) - (pressed(Key::kPageDown) ? 0.5 : 0.0)};
     constexpr std::array kAxisKeys = {Key::k1, Key::k2, Key::k3, Key::k4, Key::k5};
     for (size_t axis = 0; axis < kAxisKeys.size(); ++axis) {
         if (pressed(kAxisKeys[axis])) wishes.next_technique = axis;
@@ -97,10 +134,13 @@ Wishes read_wishes(const Input& input) {
 
 const char* controls_help() {
     return "drag            turn            right drag  move           wheel  come closer\n"
-           "Space           pause           N           one step       Home   camera of the start\n"
-           "P or F12        screenshot      T           TAA on or off  Esc    end\n"
+           "W A S D, arrows walk, or fly with the free camera (Q E: down, up; Shift: faster)\n"
+           "C               next camera     Home        camera of the start\n"
+           "Space           pause           N           one step       R      turntable\n"
+           "P or F12        screenshot      O           a turn of pictures\n"
+           "PageUp PageDown time of day     F4          next scene     T      TAA on or off\n"
            "1 2 3 4 5       next technique for opacity, shadow, scattering, multiple, environment\n"
-           "H or F1         this help\n";
+           "Tab             panels          H or F1     this help      Esc    end\n";
 }
 
 }  // namespace vellus::demo

@@ -23,6 +23,10 @@ scene::CameraPose pose_of(const Orbit& orbit);
 /// Drag turns, right or middle drag moves, the wheel comes closer, so do a gamepad's sticks and
 /// triggers; `height` of the window in screen coordinates. False where nothing changed.
 bool steer(Orbit& orbit, const Input& input, double height);
+/// Drag and right stick turn the view about the camera itself.
+void look_around(Orbit& orbit, const Input& input, double height);
+/// W A S D or arrows, Q and E, left stick: right, up and back, each in [-1, 1].
+glm::dvec3 movement(const Input& input);
 
 /// What the keys pressed in this frame ask for.
 struct Wishes {
@@ -31,8 +35,14 @@ struct Wishes {
     bool step = false;
     bool screenshot = false;
     bool help = false;
+    bool panels = false;
     bool taa = false;
     bool home = false;
+    bool next_camera = false;
+    bool turntable = false;           ///< on or off
+    bool turntable_pictures = false;  ///< one turn into files
+    bool next_scene = false;
+    double hours = 0.0;                    ///< to move the time of day by
     std::optional<size_t> next_technique;  ///< index of an axis
 };
 Wishes read_wishes(const Input& input);

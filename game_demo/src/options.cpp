@@ -62,8 +62,11 @@ void add_world_options(CLI::App& app, Options& options) {
     app.add_option_function<std::string>(
            "--dt",
            reading("--dt",
-                   [&](const std::string& text) { return keep(read_seconds(text), options.dt); }),
-           "Seconds from frame to frame; 1/60 if not given")
+                   [&](const std::string& text) {
+                       options.real_time = false;
+                       return keep(read_seconds(text), options.dt);
+                   }),
+           "Seconds from frame to frame; if not given 1/60, in a window as long as it took")
         ->type_name("S");
     app.add_option("--seed", options.seed, "Seed of everything random")
         ->type_name("S")

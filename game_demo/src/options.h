@@ -37,6 +37,7 @@ struct Options {
     std::filesystem::path out = "out";
     SaveChoice save;
     double dt = 1.0 / 60.0;
+    bool real_time = true;  ///< in a window, without --dt: the clock's seconds instead of dt
     uint64_t seed = 0;
     std::string device;
     std::vector<TechniqueChoice> techniques;

@@ -10,7 +10,6 @@
 #include "modules/hair/register.h"
 #include "modules/light/register.h"
 #include "modules/scene/register.h"
-#include "modules/scene/render_frame.h"
 #include "modules/scene/view.h"
 #include "modules/temporal/register.h"
 
@@ -142,6 +141,7 @@ Result<void> Renderer::describe_output(Output output) {
         describe_readback(frame, readback_);
         return {};
     }
+    if (overlay_) overlay_(frame);
     const bool first =
         size != std::array{picture_.info().width, picture_.info().height} || !picture_;
     if (first) {

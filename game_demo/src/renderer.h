@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/image.h"
 #include "game_demo/src/stats.h"
+#include "modules/scene/render_frame.h"
 
 namespace vellus::demo {
 
@@ -35,6 +37,10 @@ class Renderer {
     Result<void> settle();
     /// One frame: systems, graph, device. Does not wait for the device.
     Result<void> draw(Output output);
+    /// Describes what lies over the picture (panels) in every frame drawn to kPicture.
+    void set_overlay(std::function<void(scene::RenderFrame&)> overlay) {
+        overlay_ = std::move(overlay);
+    }
     /// Waits for all frames; report() is then that of the last one.
     Result<void> wait();
 
@@ -62,6 +68,7 @@ class Renderer {
     gpu::Buffer readback_;
     std::array<uint32_t, 2> readback_size_{};
     gpu::Image picture_;
+    std::function<void(scene::RenderFrame&)> overlay_;
 };
 
 }  // namespace vellus::demo

@@ -90,6 +90,42 @@ TEST_F(WindowTest, ResizesTakesAScreenshotAndClosesByKey) {
     }
 }
 
+/// Every key once, panels and mouse, and another scene: what a curious visitor does.
+TEST_F(WindowTest, PlaysThroughEverySwitch) {
+    Process demo(in_window());
+    ASSERT_TRUE(demo.wait_for("Esc")) << demo.output();
+    const std::string id = find_window();
+    xdotool({"windowsize", "--sync", id, "400", "300"});
+    xdotool({"key", "Tab"});
+    const auto press = [&](const char* key, const char* says) {
+        xdotool({"key", key});
+        EXPECT_TRUE(demo.wait_for(says)) << key << ": " << demo.output();
+    };
+    press("c", "camera=orbit");
+    press("c", "camera=free");
+    xdotool({"keydown", "w"});
+    press("r", "turntable on");
+    xdotool({"keyup", "w"});
+    press("r", "turntable off");
+    press("Next", "time of day 9.5");
+    press("Prior", "time of day 10.0");
+    press("t", "TAA off");
+    press("1", "opacity=dither_still");
+    press("2", "shadow=none");
+    press("4", "multiple=");
+    press("5", "environment=");
+    press("3", "scattering=");
+    xdotool({"key", "F1", "space", "n", "Home"});
+    // Over the panel the mouse is the panel's: a drag along its slider must upset nothing.
+    xdotool({"mousemove", "--window", id, "120", "120", "mousedown", "1"});
+    xdotool({"mousemove_relative", "40", "60", "mouseup", "1", "click", "4", "click", "5"});
+    press("o", "turntable_0023.png");
+    press("F4", "scene ");
+    press("p", "screenshot_0000.png");
+    xdotool({"key", "Escape"});
+    EXPECT_EQ(demo.wait(), 0) << "no validation message, no error: " << demo.output();
+}
+
 TEST_F(WindowTest, ClosesAfterTheFramesAskedFor) {
     auto arguments = in_window();
     arguments.insert(arguments.end(), {"--frames", "5", "--explain"});

@@ -1,0 +1,132 @@
+#include "game_demo/src/player.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/ecs/schedule.h"
+#include "modules/character/components.h"
+#include "modules/character/register.h"
+#include "modules/scene/instantiate.h"
+#include "modules/scene/register.h"
+#include "modules/scene/time.h"
+
+namespace vellus::demo {
+namespace {
+
+constexpr double kStep = 1.0 / 60.0;
+
+asset::Animation still_clip(const char* name, const glm::vec3& joint_at) {
+    asset::Animation clip{.name = name, .duration = 1.0f};
+    clip.channels.push_back(
+        {.node = 1,
+         .times = {0.0f, 1.0f},
+         .values = {joint_at.x, joint_at.y, joint_at.z, joint_at.x, joint_at.y, joint_at.z}});
+    return clip;
+}
+
+/// A node "hero" that walks, with a joint that its clips hold at one place each.
+class PlayerTest : public testing::Test {
+  protected:
+    void load(const std::string& json) {
+        auto scene = std::make_shared<asset::SceneAsset>();
+        scene->path = "hero.gltf";
+        scene->nodes.resize(2);
+        scene->nodes[0].children = {1};
+        scene->nodes[0].extensions.push_back({kPlayerExtensionName, json});
+        scene->nodes[1].parent = 0;
+        scene->roots = {0};
+        scene->animations = {still_clip("stand", {0.0f, 1.0f, 0.0f}),
+                             still_clip("walk", {0.0f, 3.0f, 0.0f})};
+        const auto instance = scene::instantiate(world_, scene);
+        ASSERT_TRUE(instance);
+        const auto& library = world_.resource<scene::SceneLibrary>();
+        world_.add(library.instances[*instance].root, character::AnimationPlayer{});
+        hero_ = library.entity(*instance, 0);
+        joint_ = library.entity(*instance, 1);
+        scene::register_scene(world_, schedule_);
+        character::register_character(world_, schedule_);
+        ASSERT_TRUE(schedule_.build(world_));
+    }
+    void walk(const glm::dvec3& wish, double yaw, double seconds) {
+        for (int i = 0; i < std::lround(seconds / kStep); ++i) {
+            player_->update(world_, wish, yaw, kStep);
+            schedule_.run(world_);
+        }
+    }
+
+    World world_;
+    Schedule schedule_{"frame"};
+    Entity hero_ = kNoEntity;
+    Entity joint_ = kNoEntity;
+    std::unique_ptr<Player> player_;
+};
+
+constexpr const char* kHero = R"({"walk": "walk", "idle": "stand", "speed": 1.5})";
+
+TEST_F(PlayerTest, WalksAheadAsTheCameraSeesItAtTheClipsSpeed) {
+    load(kHero);
+    player_ = std::move(*Player::find(world_));
+    ASSERT_TRUE(player_);
+    walk({0.0, 0.0, -1.0}, 0.0, 2.0);
+    const glm::dvec3 reached = player_->position(world_);
+    walk({0.0, 0.0, -1.0}, 0.0, 1.0);
+    EXPECT_NEAR(player_->position(world_).z - reached.z, -1.5, 0.01) << "away from the camera";
+    EXPECT_EQ(player_->position(world_).y, 0.0);
+    // A camera turned left by a right angle looks along -X.
+    walk({0.0, 0.0, -1.0}, 0.5 * std::acos(-1.0), 2.0);
+    const glm::dvec3 turned = player_->position(world_);
+    walk({0.0, 0.0, -1.0}, 0.5 * std::acos(-1.0), 1.0);
+    EXPECT_NEAR(player_->position(world_).x - turned.x, -1.5, 0.01);
+}
+
+TEST_F(PlayerTest, ClipsFollowTheSpeed) {
+    load(kHero);
+    player_ = std::move(*Player::find(world_));
+    const auto height = [&] { return world_.get<scene::LocalTransform>(joint_)->translation.y; };
+    walk({}, 0.0, 0.5);
+    EXPECT_NEAR(height(), 1.0, 1e-5) << "the scene's own first clip until somebody walks";
+    walk({1.0, 0.0, 0.0}, 0.0, 2.0);
+    EXPECT_NEAR(height(), 3.0, 1e-4);
+    walk({}, 0.0, 0.1);
+    EXPECT_GT(height(), 1.0);
+    EXPECT_LE(height(), 3.0);
+    walk({}, 0.0, 3.0);
+    EXPECT_NEAR(height(), 1.0, 1e-4);
+}
+
+TEST_F(PlayerTest, TheSameSecondsLeadToTheSamePlaceAtAnyFrameRate) {
+    load(kHero);
+    player_ = std::move(*Player::find(world_));
+    for (int i = 0; i < 300; ++i) player_->update(world_, {0.3, 0.0, -0.8}, 0.4, 0.01);
+    schedule_.run(world_);
+    const glm::dvec3 fine = player_->position(world_);
+    *world_.get<scene::LocalTransform>(hero_) = {};
+    auto again = std::move(*Player::find(world_));
+    for (int i = 0; i < 60; ++i) again->update(world_, {0.3, 0.0, -0.8}, 0.4, 0.05);
+    schedule_.run(world_);
+    // The first-order ease leaves a difference of about half a step of its time constant.
+    EXPECT_LT(glm::length(again->position(world_) - fine), 0.1);
+    EXPECT_GT(glm::length(fine), 3.0);
+}
+
+TEST_F(PlayerTest, AMissingClipIsAnErrorThatNamesIt) {
+    load(R"({"walk": "run"})");
+    const auto player = Player::find(world_);
+    ASSERT_FALSE(player);
+    EXPECT_NE(player.error().message().find("\"run\""), std::string::npos);
+    EXPECT_NE(player.error().message().find("hero.gltf"), std::string::npos);
+}
+
+TEST(PlayerExtensionTest, RefusesWhatIsNoClipAndNoSpeed) {
+    for (const char* json : {R"({})", R"({"walk": 3})", R"({"walk": "w", "speed": 0})", "[", "7"}) {
+        EXPECT_FALSE(parse_player_extension(json, "scene.gltf")) << json;
+    }
+    const auto good = parse_player_extension(R"({"walk": "w"})", "scene.gltf");
+    ASSERT_TRUE(good);
+    EXPECT_EQ(good->walk, "w");
+    EXPECT_TRUE(good->idle.empty());
+}
+
+}  // namespace
+}  // namespace vellus::demo
