@@ -75,6 +75,30 @@ std::vector<float> read_thickness(Context& context, const Attributes& attributes
     return thickness;
 }
 
+/// Custom attributes and further colours. What cannot be read is left out, for glTF leaves their
+/// meaning to whoever wrote them.
+void read_columns(Context& context, const Attributes& attributes, const std::string& pointer,
+                  Primitive& primitive) {
+    constexpr int kMostComponents = 4;
+    for (const auto& [name, accessor] : attributes) {
+        const bool custom = name.starts_with('_') && name != "_THICKNESS";
+        const bool color = name.starts_with("COLOR_") && name != "COLOR_0";
+        const int components = accessor_components(context, accessor);
+        if (!(custom || color) || components > kMostComponents) continue;
+        const std::string place = fmt::format("{}/{}", pointer, name.substr(0, 40));
+        if (accessor_count(context, accessor) != primitive.positions.size()) {
+            context.warn(place, "not one element per position; left out");
+            continue;
+        }
+        try {
+            primitive.columns.push_back({name, static_cast<uint32_t>(components),
+                                         read_floats(context, accessor, components, place)});
+        } catch (const Refusal& refusal) {
+            context.warn(place, refusal.error.what + "; left out");
+        }
+    }
+}
+
 /// All sets JOINTS_n and WEIGHTS_n, reduced to the four strongest influences of each vertex.
 void read_influences(Context& context, const Attributes& attributes, const std::string& pointer,
                      Primitive& primitive) {
@@ -201,6 +225,7 @@ std::optional<Primitive> read_primitive(Context& context, const tinygltf::Primit
     primitive.texcoords = read_attribute<2>(context, from.attributes, "TEXCOORD_0", count, place);
     primitive.colors = read_colors(context, from.attributes, count, place);
     primitive.thickness = read_thickness(context, from.attributes, count, place);
+    read_columns(context, from.attributes, place, primitive);
     read_influences(context, from.attributes, place, primitive);
     read_morph_targets(context, from, pointer, primitive);
     primitive.indices = read_indices(context, from, count, pointer);

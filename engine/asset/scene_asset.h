@@ -46,6 +46,14 @@ struct MorphTarget {
     std::vector<glm::vec3> normals;
 };
 
+/// One more attribute of the vertices: custom (_NAME) or a further colour set (COLOR_1 and on);
+/// `components` floats for each.
+struct VertexColumn {
+    std::string name;
+    uint32_t components = 1;
+    std::vector<float> values;
+};
+
 /// One draw: attributes are empty or as long as `positions`; strips and fans come as plain
 /// triangles, line loops as closed line strips. `indices` is always filled and in range. Triangles
 /// always have unit normals. Weights are >= 0 and sum to 1; a joint without weight is 0.
@@ -59,6 +67,7 @@ struct Primitive {
     std::vector<glm::vec4> weights;
     /// The custom attribute _THICKNESS: a strand's diameter.
     std::vector<float> thickness;
+    std::vector<VertexColumn> columns;
     std::vector<uint32_t> indices;
     std::vector<MorphTarget> morph_targets;
     uint32_t material = kNone;
