@@ -1,0 +1,119 @@
+#include "modules/hair/grow/grow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "engine/platform/jobs.h"
+#include "modules/hair/grow/chance.h"
+#include "modules/hair/grow/shape.h"
+
+namespace vellus::hair {
+
+namespace {
+
+using namespace grow;
+
+constexpr double kSquareCentimetre = 1e-4;
+
+uint32_t strand_count(const GrowSettings& settings, double area) {
+    if (settings.count > 0) return settings.count;
+    const double count = settings.density * area / kSquareCentimetre;
+    return static_cast<uint32_t>(std::clamp(count, 1.0, double{kMostStrands}));
+}
+
+Result<void> check_surface(const GrowSurface& surface) {
+    const size_t vertices = surface.positions.size();
+    const bool fits =
+        surface.normals.size() == vertices && surface.density.size() == vertices &&
+        (surface.uvs.empty() || surface.uvs.size() == vertices) &&
+        std::ranges::all_of(surface.triangles, [&](uint32_t v) { return v < vertices; });
+    if (!fits)
+        return Error{"columns of different lengths, or an index out of range", "surface", ""};
+    if (!(haired_area(surface) > 0.0)) {
+        return Error{"no skin is haired", "surface", "choose a region with some area"};
+    }
+    return {};
+}
+
+/// The file's column of diameters: tapered from root to tip.
+void add_thickness(const GrowSettings& settings, size_t strands, Groom& groom) {
+    groom.default_thickness = settings.width;
+    if (settings.taper <= 0.0f) return;
+    const size_t points = settings.points;
+    groom.thickness.resize(groom.points.size());
+    for (size_t i = 0; i < groom.thickness.size(); ++i) {
+        const float t = static_cast<float>(i % points) / static_cast<float>(points - 1);
+        // Hair keeps its width for half its length.
+        const float gone = std::max(0.0f, 2.0f * t - 1.0f);
+        groom.thickness[i] = settings.width * (1.0f - settings.taper * gone * gone);
+    }
+    static_cast<void>(strands);
+}
+
+Groom to_groom(const GrowSettings& settings, const std::vector<Root>& roots, bool mapped,
+               Strands&& strands) {
+    Groom groom;
+    groom.format = GroomFormat::kGltf;
+    groom.points = std::move(strands.at);
+    groom.strand_begin.resize(roots.size() + 1);
+    for (size_t i = 0; i < groom.strand_begin.size(); ++i) {
+        groom.strand_begin[i] = static_cast<uint32_t>(i * settings.points);
+    }
+    if (mapped) {
+        for (const Root& root : roots) groom.strand_uvs.push_back(root.uv);
+    }
+    add_thickness(settings, roots.size(), groom);
+    groom.info = fmt::format("Vellus, {}", grow_style_name(settings.style));
+    return groom;
+}
+
+bool is_gathered(GrowStyle style) {
+    return style == GrowStyle::kPonytail || style == GrowStyle::kBraid;
+}
+
+}  // namespace
+
+Result<Groom> grow_groom(const GrowSurface& surface, const GrowSettings& settings, uint32_t seed,
+                         const GrowProgress& progress) {
+    if (auto ok = check(settings); !ok) return ok.error();
+    if (auto ok = check_surface(surface); !ok) return ok.error();
+    const auto tell = [&](float share) {
+        if (progress) progress(share);
+    };
+    tell(0.0f);
+    const double area = haired_area(surface);
+    const std::vector<Root> roots = scatter_roots(surface, strand_count(settings, area), seed);
+    if (roots.empty()) return Error{"no hair found a place", "surface", "choose a larger region"};
+    tell(0.15f);
+    const ClosestPoint body(surface);
+    const Ground ground{body, fit_head(roots), settings, seed};
+    std::optional<Gather> gather;
+    if (is_gathered(settings.style)) gather = make_gather(body, ground.head, settings);
+    tell(0.2f);
+
+    std::vector<Guide> guides(std::min<size_t>(settings.guides, roots.size()));
+    parallel_ranges(guides.size(), 4, [&](size_t first, size_t last) {
+        for (size_t i = first; i < last; ++i) {
+            guides[i] = trace_guide(ground, roots[i], static_cast<uint32_t>(i), gather);
+        }
+    });
+    tell(0.4f);
+    std::vector<double> from_parting(roots.size());
+    if (settings.parted > 0.0f) {
+        for (size_t i = 0; i < roots.size(); ++i) {
+            from_parting[i] = comb(ground.head, settings, roots[i]).from_parting;
+        }
+    }
+    const auto neighbours = find_neighbours(roots, from_parting, guides.size());
+    Strands strands = interpolate(ground, roots, guides, neighbours, gather);
+    tell(0.6f);
+    const Locks locks = find_locks(settings, area, roots, from_parting);
+    if (!gather) clump(ground, locks, strands);
+    tell(0.7f);
+    curl_and_settle(ground, locks, roots, gather.has_value(), strands);
+    tell(1.0f);
+    return to_groom(settings, roots, !surface.uvs.empty(), std::move(strands));
+}
+
+}  // namespace vellus::hair
