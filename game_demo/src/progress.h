@@ -7,7 +7,8 @@ namespace vellus::demo {
 /// A bar on stderr that says how far a long run is; silent where stderr is no terminal.
 class Progress {
   public:
-    explicit Progress(uint32_t total);
+    /// `unit`: what is counted.
+    explicit Progress(uint32_t total, const char* unit = "frames");
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -16,6 +17,7 @@ class Progress {
 
   private:
     uint32_t total_;
+    const char* unit_;
     double start_;
     bool visible_;
 };
