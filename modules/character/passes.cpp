@@ -37,8 +37,8 @@ Tiles shadow_tiles(const light::LightBlock& block) {
     for (uint32_t i = 0; i < block.count; ++i) {
         const light::PunctualLight& light = block.light[i];
         if (light.shadow_tile == light::kNoShadow) continue;
-        tiles.tile[tiles.count++] = {light.to_shadow, light.shadow_tile * light.shadow_size,
-                                     light.shadow_size};
+        tiles.tile[tiles.count++] = {light.to_opaque, light.shadow_tile * light.opaque_size,
+                                     light.opaque_size};
     }
     return tiles;
 }

@@ -123,7 +123,7 @@ Entity spawn_hair(World& world, uint32_t groom, const HairExtension& look,
     const Entity entity =
         world.spawn(Hair{groom}, look.material, look.width, HairShadow{}, techniques,
                     local_transform(look), scene::WorldTransform{}, scene::PreviousWorldTransform{},
-                    scene::WorldBounds{}, light::ShadowFocus{});
+                    scene::WorldBounds{}, light::ShadowFocus{.hair = true});
     if (parent != kNoEntity) world.add(entity, scene::Parent{parent});
     return entity;
 }

@@ -13,7 +13,8 @@ enum class PunctualKind : uint32_t { kSun = 0, kSpot = 1 };
 
 /// Mirrors PunctualLight of shaders/light/lights.glsl, where the fields are explained.
 struct PunctualLight {
-    glm::mat4 to_shadow{1.0f};
+    glm::mat4 to_hair{1.0f};
+    glm::mat4 to_opaque{1.0f};
     glm::vec3 position{0.0f};
     PunctualKind kind = PunctualKind::kSun;
     glm::vec3 to_light{0.0f, 1.0f, 0.0f};
@@ -21,12 +22,16 @@ struct PunctualLight {
     glm::vec3 color{0.0f};
     float cone_offset = 1.0f;
     uint32_t shadow_tile = kNoShadow;
-    float shadow_texel = 0.0f;
-    float shadow_depth = 0.0f;
-    uint32_t shadow_size = 0;
+    float hair_texel = 0.0f;
+    float hair_range = 0.0f;
+    uint32_t hair_size = 0;
+    float opaque_texel = 0.0f;
+    float opaque_range = 0.0f;
+    uint32_t opaque_size = 0;
+    uint32_t padding = 0;
     uint64_t hair_depth = 0;
 };
-static_assert(sizeof(PunctualLight) == 136);
+static_assert(sizeof(PunctualLight) == 216);
 
 /// Mirrors the buffer Lights of shaders/light/lights.glsl (scalar layout).
 struct LightBlock {
@@ -36,6 +41,6 @@ struct LightBlock {
     uint32_t opaque_casters = 0;
     std::array<PunctualLight, kMaxLights> light{};
 };
-static_assert(sizeof(LightBlock) == 120 + 4 * 136);
+static_assert(sizeof(LightBlock) == 120 + 4 * 216);
 
 }  // namespace vellus::light

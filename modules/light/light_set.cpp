@@ -1,6 +1,7 @@
 #include "modules/light/light_set.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -29,11 +30,18 @@ Sphere sphere_around(const scene::Box& box) {
     return {box.center(), std::max(0.5 * glm::length(box.max - box.min), 1e-3)};
 }
 
+/// How one shadow map sees the world.
+struct ShadowView {
+    glm::dmat4 world_to_map{1.0};
+    float texel = 0.0f;  ///< metres: everywhere (sun), at 1 m (spot)
+    float range = 0.0f;  ///< metres: of reversed depth (sun), near plane (spot)
+};
+
 /// Orthographic view along the sun's beam around `focus`, its centre on whole texels so that
 /// shadows do not crawl when the groom moves; depth reaches over everything that may cast.
-void fit_sun(const Sphere& focus, const Sphere& all, uint32_t size, PunctualLight& light,
-             glm::dmat4& world_to_shadow, float& pixels_per_metre) {
-    const glm::dmat3 axes = axes_along(glm::dvec3(light.to_light));
+ShadowView fit_sun(const Sphere& focus, const Sphere& all, uint32_t size,
+                   const glm::dvec3& to_sun) {
+    const glm::dmat3 axes = axes_along(to_sun);
     // A radius in steps of an eighth keeps the texel size while the groom breathes.
     const double radius = std::exp2(std::ceil(8.0 * std::log2(focus.radius * 1.02)) / 8.0);
     const double texel = 2.0 * radius / size;
@@ -49,24 +57,33 @@ void fit_sun(const Sphere& focus, const Sphere& all, uint32_t size, PunctualLigh
     // Along +Z towards the light: reach above the centre is depth 1, reach below it is 0.
     ortho[2][2] = 0.5 / reach;
     ortho[3][2] = 0.5;
-    world_to_shadow = ortho * to_light;
-    light.shadow_texel = static_cast<float>(texel);
-    light.shadow_depth = static_cast<float>(2.0 * reach);
-    pixels_per_metre = static_cast<float>(1.0 / texel);
+    return {ortho * to_light, static_cast<float>(texel), static_cast<float>(2.0 * reach)};
 }
 
-void fit_spot(const scene::Light& source, const glm::dvec3& position, const glm::dvec3& to_light,
-              uint32_t size, PunctualLight& light, glm::dmat4& world_to_shadow,
-              float& pixels_per_metre) {
+ShadowView fit_spot(const scene::Light& source, const glm::dvec3& position,
+                    const glm::dvec3& to_light, uint32_t size) {
     const double fov = std::clamp(2.0 * source.outer_cone, 0.02, 2.8);
     const glm::dmat3 axes = axes_along(to_light);
     glm::dmat4 view(glm::transpose(axes));
     view[3] = glm::dvec4(-(glm::transpose(axes) * position), 1.0);
-    world_to_shadow = scene::projection(static_cast<float>(fov), 1.0, kSpotNear) * view;
-    const double half = std::tan(0.5 * fov);
-    light.shadow_texel = static_cast<float>(2.0 * half / size);
-    light.shadow_depth = kSpotNear;
-    pixels_per_metre = static_cast<float>(0.5 * size / half);
+    return {scene::projection(static_cast<float>(fov), 1.0, kSpotNear) * view,
+            static_cast<float>(2.0 * std::tan(0.5 * fov) / size), kSpotNear};
+}
+
+/// The side of a map whose texels are about pixels where `focus` is seen: the next power of two,
+/// not above `settings.size`. `now`, this frame's side so far, is kept while it is not far off, so
+/// that a slow approach does not make it change back and forth.
+uint32_t map_size(const Sphere& focus, const scene::CameraPose& camera, double picture_height,
+                  const ShadowSettings& settings, uint32_t now) {
+    if (!settings.fit_to_picture || settings.size == 0) return settings.size;
+    const double distance = glm::distance(camera.position, focus.center);
+    if (distance <= focus.radius) return settings.size;
+    const double pixels =
+        focus.radius * picture_height / (distance * std::tan(0.5 * camera.vertical_fov));
+    const auto fits = [&](double size) { return size >= pixels && size <= 2.5 * pixels; };
+    if (now != 0 && now <= settings.size && fits(now)) return now;
+    const auto wanted = static_cast<uint32_t>(std::clamp(pixels, 32.0, 65536.0));
+    return std::min(std::bit_ceil(wanted), settings.size);
 }
 
 float strength(const scene::Light& light) {
@@ -96,16 +113,22 @@ PunctualLight describe(const scene::Light& source, const glm::dvec3& position,
 void gather_lights(Query<const scene::MeshInstance> meshes,
                    Query<const scene::Light, const scene::WorldTransform> lights,
                    Query<const scene::WorldBounds, const ShadowFocus*> bounds,
-                   Res<const scene::ViewState> view, Res<const ShadowSettings> settings,
-                   Res<LightSet> set) {
+                   Res<const scene::ViewState> view, Res<const scene::ViewSettings> picture,
+                   Res<const ShadowSettings> settings, Res<LightSet> set) {
+    scene::Box hair_box;
     scene::Box focus_box;
     scene::Box all_box;
     bounds.each([&](const scene::WorldBounds& item, const ShadowFocus* focus) {
         all_box.include(item.box);
         if (focus) focus_box.include(item.box);
+        if (focus && focus->hair) hair_box.include(item.box);
     });
     const Sphere all = sphere_around(all_box);
     const Sphere focus = focus_box.empty() ? all : sphere_around(focus_box);
+    const Sphere hair = hair_box.empty() ? focus : sphere_around(hair_box);
+    const double height = picture->size.y;
+    set->hair_size = map_size(hair, view->pose, height, *settings, set->hair_size);
+    set->opaque_size = map_size(focus, view->pose, height, *settings, set->opaque_size);
 
     LightBlock& block = set->block;
     const auto environment = block.environment;
@@ -133,18 +156,25 @@ void gather_lights(Query<const scene::MeshInstance> meshes,
         const glm::dvec3 position(world.matrix[3]);
         const glm::dvec3 to_light = glm::normalize(glm::dvec3(world.matrix[2]));
         PunctualLight light = describe(source, position, to_light, camera);
-        glm::dmat4& world_to_shadow = set->world_to_shadow[slot];
-        float& pixels = set->shadow_pixels_per_metre[slot];
         if (settings->size > 0 && source.kind != asset::LightKind::kPoint) {
-            light.shadow_size = settings->size;
             light.shadow_tile = 0;
-            if (light.kind == PunctualKind::kSun) {
-                fit_sun(focus, all, settings->size, light, world_to_shadow, pixels);
-            } else {
-                fit_spot(source, position, to_light, settings->size, light, world_to_shadow,
-                         pixels);
-            }
-            light.to_shadow = glm::mat4(world_to_shadow * from_camera);
+            const auto fit = [&](const Sphere& sphere, uint32_t size) {
+                return light.kind == PunctualKind::kSun
+                           ? fit_sun(sphere, all, size, to_light)
+                           : fit_spot(source, position, to_light, size);
+            };
+            const ShadowView of_hair = fit(hair, set->hair_size);
+            set->world_to_hair[slot] = of_hair.world_to_map;
+            set->hair_texels_per_metre[slot] = 1.0f / of_hair.texel;
+            light.to_hair = glm::mat4(of_hair.world_to_map * from_camera);
+            light.hair_texel = of_hair.texel;
+            light.hair_range = of_hair.range;
+            light.hair_size = set->hair_size;
+            const ShadowView of_opaque = fit(focus, set->opaque_size);
+            light.to_opaque = glm::mat4(of_opaque.world_to_map * from_camera);
+            light.opaque_texel = of_opaque.texel;
+            light.opaque_range = of_opaque.range;
+            light.opaque_size = set->opaque_size;
         }
         block.light[slot] = light;
     });
@@ -154,11 +184,10 @@ void gather_lights(Query<const scene::MeshInstance> meshes,
     }
 }
 
-void describe_shadow_atlas(Res<const LightSet> set, Res<const ShadowSettings> settings,
-                           Res<scene::RenderFrame> frame) {
+void describe_shadow_atlas(Res<const LightSet> set, Res<scene::RenderFrame> frame) {
     const bool used = set->block.tiles > 0 && set->block.opaque_casters > 0;
-    const graph::ImageDesc desc{scene::kDepthFormat, used ? settings->size * set->block.tiles : 1,
-                                used ? settings->size : 1};
+    const graph::ImageDesc desc{scene::kDepthFormat, used ? set->opaque_size * set->block.tiles : 1,
+                                used ? set->opaque_size : 1};
     frame->opaque_shadows = frame->graph.create_image("opaque shadows", desc);
     auto pass = frame->graph.add_pass("light/shadow_atlas", graph::PassKind::kRaster);
     frame->opaque_shadows = pass.depth(frame->opaque_shadows, graph::clear(0.0f));

@@ -30,7 +30,7 @@ bool is_cut_out(float alpha) {
 float shadow(PunctualLight light, vec3 n, vec3 to_light) {
     float distance = light.kind == kLightSun ? 1.0 : length(light.position - position);
     vec3 p =
-        position + shadow_normal_offset(n, to_light, shadow_texel_metres(light, distance));
+        position + shadow_normal_offset(n, to_light, shadow_texel_metres(light, light.opaque_texel, distance));
     float visible = opaque_visibility(opaque_shadows, light, p);
     return visible > 0.0 ? visible * hair_transmittance(light, p, hair_falloff, 0.0) : 0.0;
 }

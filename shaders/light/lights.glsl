@@ -15,7 +15,8 @@ const uint kNoShadow = 0xffffffffu;
 layout(buffer_reference, scalar) readonly buffer HairDepths { uint at[]; };
 
 struct PunctualLight {
-    mat4 to_shadow;       // position relative to the camera -> clip space of the shadow map
+    mat4 to_hair;         // position relative to the camera -> clip space of its map of hair
+    mat4 to_opaque;       // the same for its tile of opaque casters
     vec3 position;        // of a spot or point
     uint kind;
     vec3 to_light;        // unit: towards a sun; against the axis of a spot
@@ -23,9 +24,13 @@ struct PunctualLight {
     vec3 color;           // sun: irradiance; spot: intensity, so irradiance at 1 m
     float cone_offset;
     uint shadow_tile;     // tile in the atlas of opaque casters, or kNoShadow
-    float shadow_texel;   // metres a texel covers: everywhere (sun), at 1 m (spot)
-    float shadow_depth;   // metres: range of reversed depth (sun), near plane (spot)
-    uint shadow_size;     // texels along a side
+    float hair_texel;     // metres a texel covers: everywhere (sun), at 1 m (spot)
+    float hair_range;     // metres: range of reversed depth (sun), near plane (spot)
+    uint hair_size;       // texels along a side
+    float opaque_texel;
+    float opaque_range;
+    uint opaque_size;
+    uint padding;
     HairDepths hair_depth;  // reversed depth of the closest hair, float bits, row by row; 0: no hair
 };
 
@@ -51,25 +56,26 @@ vec3 light_irradiance(PunctualLight light, vec3 p, out vec3 to_light) {
     return light.color * (cone * cone / squared);
 }
 
-/// Distance from the light, in metres, of a reversed shadow depth; empty (0) is beyond everything.
-float shadow_metres(PunctualLight light, float depth) {
-    return light.kind == kLightSun ? (depth > 0.0 ? (1.0 - depth) * light.shadow_depth : 1.0e30)
-                                   : light.shadow_depth / max(depth, 1.0e-30);
+/// Distance from the light, in metres, of a reversed depth in a map of this range; empty (0) is beyond
+/// everything.
+float shadow_metres(PunctualLight light, float range, float depth) {
+    return light.kind == kLightSun ? (depth > 0.0 ? (1.0 - depth) * range : 1.0e30)
+                                   : range / max(depth, 1.0e-30);
 }
 
-vec4 shadow_metres(PunctualLight light, vec4 depth) {
-    return vec4(shadow_metres(light, depth.x), shadow_metres(light, depth.y),
-                shadow_metres(light, depth.z), shadow_metres(light, depth.w));
+vec4 shadow_metres(PunctualLight light, float range, vec4 depth) {
+    return vec4(shadow_metres(light, range, depth.x), shadow_metres(light, range, depth.y),
+                shadow_metres(light, range, depth.z), shadow_metres(light, range, depth.w));
 }
 
-/// Size in metres of a shadow texel at this distance from the light.
-float shadow_texel_metres(PunctualLight light, float metres) {
-    return light.kind == kLightSun ? light.shadow_texel : light.shadow_texel * metres;
+/// Size in metres of a texel, `texel` as in PunctualLight, at this distance from the light.
+float shadow_texel_metres(PunctualLight light, float texel, float metres) {
+    return light.kind == kLightSun ? texel : texel * metres;
 }
 
-/// uv in [0, 1]^2 of the light's own map and reversed depth; false outside the map.
-bool shadow_position(PunctualLight light, vec3 p, out vec2 uv, out float depth) {
-    vec4 clip = light.to_shadow * vec4(p, 1.0);
+/// uv in [0, 1]^2 of the map behind `to_map` and reversed depth; false outside the map.
+bool shadow_position(mat4 to_map, vec3 p, out vec2 uv, out float depth) {
+    vec4 clip = to_map * vec4(p, 1.0);
     if (clip.w <= 0.0) return false;
     uv = clip.xy / clip.w * 0.5 + 0.5;
     depth = clip.z / clip.w;

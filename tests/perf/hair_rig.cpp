@@ -8,6 +8,7 @@
 #include "modules/hair/register.h"
 #include "modules/hair/spawn.h"
 #include "modules/light/environment.h"
+#include "modules/light/light_set.h"
 #include "modules/light/load_environment.h"
 #include "modules/light/register.h"
 #include "modules/scene/camera.h"
@@ -82,6 +83,8 @@ Result<void> HairRig::set_up(const HairRigOptions& options) {
     const glm::uvec2 size{options.width, options.height};
     spawn_camera(world_, world_.resource<hair::HairLibrary>().grooms[*groom], size);
     world_.resource<scene::ViewSettings>().size = size;
+    // The benchmark compares fixed maps, whatever the framing.
+    world_.resource<light::ShadowSettings>().fit_to_picture = false;
     world_.resource<temporal::TemporalSettings>().enabled = options.temporal;
     if (auto built = schedule_.build(world_); !built) return built;
 

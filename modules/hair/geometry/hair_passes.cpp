@@ -69,7 +69,7 @@ void assign_hair_shadows(Res<const HairFrame> hair, Res<light::LightSet> lights,
     if (hair->casters.empty() || block.tiles == 0) return;
     uint64_t bytes = 0;
     for (uint32_t i = 0; i < block.count; ++i) {
-        bytes += uint64_t{4} * block.light[i].shadow_size * block.light[i].shadow_size;
+        bytes += uint64_t{4} * block.light[i].hair_size * block.light[i].hair_size;
     }
     if (maps->depth.bytes() < bytes) {
         if (auto idle = frame->device->wait_idle(); !idle) return frame->fail(idle.error());
@@ -83,7 +83,7 @@ void assign_hair_shadows(Res<const HairFrame> hair, Res<light::LightSet> lights,
         light::PunctualLight& light = block.light[i];
         if (light.shadow_tile == light::kNoShadow) continue;
         light.hair_depth = next;
-        next += uint64_t{4} * light.shadow_size * light.shadow_size;
+        next += uint64_t{4} * light.hair_size * light.hair_size;
     }
 }
 
@@ -133,16 +133,16 @@ graph::BufferHandle describe_light_projection(const HairFrame& hair, const light
     if (hair.deformed) pass.read(hair.deformed, Access::kStorageRead);
     projected = pass.write(projected, Access::kStorageWrite, graph::Load::kDiscard);
     pass.execute([casters = std::span<const HairDraw>(hair.casters), projected,
-                  to_shadow = lights.world_to_shadow[index],
-                  pixels = lights.shadow_pixels_per_metre[index],
-                  size = lights.block.light[index].shadow_size,
+                  to_hair = lights.world_to_hair[index],
+                  pixels = lights.hair_texels_per_metre[index],
+                  size = lights.block.light[index].hair_size,
                   pipeline = pipelines.project](PassContext& context) {
         gpu::CommandBuffer& commands = context.commands();
         commands.bind(*pipeline);
         VkDeviceAddress target = context.address(projected);
         for (const HairDraw& draw : casters) {
             ProjectPush push =
-                project_push(draw, glm::mat4(to_shadow * draw.world), glm::vec2(size), pixels);
+                project_push(draw, glm::mat4(to_hair * draw.world), glm::vec2(size), pixels);
             push.projected = target;
             commands.push(push);
             commands.dispatch_threads(push.point_count, kStrandGroupSize);
@@ -181,7 +181,7 @@ void describe_hair_shadows(Res<const HairFrame> hair, Res<const light::LightSet>
         pass.read(projected, Access::kStorageRead);
         map = pass.write(map, Access::kStorageReadWrite);
         pass.execute([casters = std::span<const HairDraw>(hair->casters), projected,
-                      target = light.hair_depth, size = light.shadow_size,
+                      target = light.hair_depth, size = light.hair_size,
                       pipeline = pipelines->shadow_depth](PassContext& context) {
             gpu::CommandBuffer& commands = context.commands();
             commands.bind(*pipeline);

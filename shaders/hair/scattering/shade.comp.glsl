@@ -37,7 +37,7 @@ layout(binding = 6, scalar) uniform Instance { HairInstance hair; };
 
 float shadow_of(PunctualLight light, vec3 position) {
     if (!kShadowed || light.shadow_tile == kNoShadow) return 1.0;
-    float texel = shadow_texel_metres(light, light.kind == kLightSun
+    float texel = shadow_texel_metres(light, light.hair_texel, light.kind == kLightSun
                                                  ? 1.0
                                                  : distance(light.position, position));
     float shadow =
