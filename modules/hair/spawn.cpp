@@ -31,9 +31,10 @@ void log_report(const std::string& name, const GroomReport& report) {
 /// lattice); of very many points, a sample.
 std::vector<glm::vec3> outermost_points(const std::vector<glm::vec3>& points) {
     constexpr size_t kDirections = 256;
-    constexpr size_t kSample = 100'000;
+    constexpr size_t kSample = 1'000'000;
     std::vector<glm::vec3> result(points.empty() ? 0 : kDirections);
-    const size_t stride = points.size() / kSample + 1;
+    // Odd, or strands of an even number of points would never show their tips.
+    const size_t stride = (points.size() / kSample) | 1;
     parallel_ranges(result.size(), 16, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) {
             const float y = 1.0f - 2.0f * (static_cast<float>(i) + 0.5f) / kDirections;

@@ -98,6 +98,7 @@ TEST(RealScenes, StraightHairFillsThePicture) {
         rows[y] |= mask[pixel];
     }
     EXPECT_GT(std::ranges::count(rows, uint8_t{1}), std::ssize(rows) * 85 / 100);
+    EXPECT_EQ(rows.front() | rows.back(), 0) << "whole in the picture, tips too";
     EXPECT_GT(area(mask), mask.size() * 15 / 100);
     EXPECT_LT(test::hole_share(mask, picture.width, 2), 0.06);
     const std::vector<uint8_t> all(size_t{640} * 360, 1);
