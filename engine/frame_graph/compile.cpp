@@ -16,6 +16,7 @@ bool Compiler::compile(const GraphDescription& graph, const CompileOptions& opti
     s.options = &options;
     s.plan = &plan;
     s.diagnostics = &diagnostics;
+    s.full_barriers = options.switches.full_barriers || options.switches.immediate;
     diagnostics.assign(graph.problems().begin(), graph.problems().end());
     if (!validate(s) || !cull(s) || !order_passes(s)) return false;
     find_lifetimes(s);

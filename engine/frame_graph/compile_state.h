@@ -28,16 +28,8 @@ struct SyncState {
 struct ResourceState {
     SyncState whole;
     uint32_t split = kNoIndex;  ///< into sub_states, layer-major, once ranges differ
-    MemoryBlock block;
-    bool aliased = false;  ///< the first barrier still has to wait for the memory's former owners
-};
-
-/// All live reads of one version, so that one barrier serves them all.
-struct Readers {
-    uint32_t stages = 0;
-    uint32_t access = 0;
-    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    bool mixed_layouts = false;
+    uint32_t block = kNoIndex;  ///< node of the pool's memory map; of a transient one
+    bool aliased = false;       ///< `whole` is the former owners' until the first use waits for it
 };
 
 /// The state history images are kept in between frames.
@@ -48,24 +40,24 @@ struct CompileState {
     const CompileOptions* options = nullptr;
     Plan* plan = nullptr;
     Diagnostics* diagnostics = nullptr;
+    bool full_barriers = false;
 
     std::vector<uint8_t> needed;      // per version: its content is read later or asked for
     std::vector<uint32_t> live_next;  // per version: the live pass that overwrites it
     std::vector<uint32_t>
         live_writer;              // per version: the live pass that wrote it, or the last before
-    bool all_live = false;        // no pass is culled: live_next and live_writer are not filled
-    bool forward = false;         // every pass is declared after those it needs
+    bool all_live = false;        // no pass is culled: what is live_ is not filled
     std::vector<uint32_t> stack;  // passes to visit
     std::vector<uint32_t> order;  // live passes, in execution order
     std::vector<uint32_t> edge_first, edge_to, edge_count, edge_next;
-    std::vector<Readers> readers;       // per version
+    std::vector<Readers> live_readers;  // per version; unless all passes live
     std::vector<ResourceState> states;  // per resource; of a transient one once it is placed
     std::vector<SyncState> sub_states;
     std::vector<MemoryMap> maps;  // per pool; more than in use are kept for their memory
 
     /// Every pass runs, where it is declared.
     [[nodiscard]] bool in_declared_order() const {
-        return all_live && forward && !options->switches.random_order;
+        return all_live && graph->in_order() && !options->switches.random_order;
     }
     /// The live pass that overwrites this version, or kNoIndex.
     [[nodiscard]] uint32_t next_writer(uint32_t version) const {
@@ -78,36 +70,23 @@ struct CompileState {
         return all_live ? graph->versions()[version].writer : live_writer[version];
     }
 
+    /// All live reads of this version.
+    [[nodiscard]] const Readers& readers(uint32_t version) const {
+        return all_live ? graph->versions()[version].readers : live_readers[version];
+    }
+
     void report(Problem problem, uint32_t pass, uint32_t resource, SourceLine where,
                 uint32_t other = kNoIndex) const {
         diagnostics->push_back({problem, pass, resource, other, where});
     }
 };
 
-// The phases, in order. Each returns false after reporting what stops the compilation. validate()
-// also takes lifetimes, as if every pass lived and ran where it is declared; that nearly always
-// holds, and find_lifetimes() takes them again where it does not.
+// The phases, in order. Each returns false after reporting what stops the compilation.
 bool validate(CompileState& s);
 bool cull(CompileState& s);
 bool order_passes(CompileState& s);
 void find_lifetimes(CompileState& s);
 bool schedule(CompileState& s);
-
-void begin_lifetimes(CompileState& s);
-/// Counts an access of the pass that runs at `position` to the lifetime of its resource.
-inline void count_access(const AccessRecord& access, const AccessInfo& how, Placement& placement,
-                         std::span<Readers> readers_of, uint32_t position) {
-    placement.usage |= access.image ? how.image_usage : how.buffer_usage;
-    if (placement.first_step == kNoIndex) placement.first_step = position;
-    placement.last_step = position;
-    if (access.write) return;
-    Readers& readers = readers_of[access.version];
-    readers.mixed_layouts =
-        readers.mixed_layouts || (readers.stages != 0 && readers.layout != how.layout);
-    readers.layout = how.layout;
-    readers.stages |= how.stages;
-    readers.access |= how.access;
-}
 
 /// Places a resource for its first use; its block carries who had the memory before.
 void place(CompileState& s, uint32_t resource);

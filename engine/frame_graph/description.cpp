@@ -14,6 +14,7 @@ ImageHandle GraphDescription::import_image(std::string_view name, const ImageDes
     resource.external = external;
     resource.before = before;
     resource.after = after;
+    resource.filled = before != Access::kNone;
     return image;
 }
 
@@ -31,11 +32,13 @@ BufferHandle GraphDescription::import_buffer(std::string_view name, const Buffer
                                              Where where) {
     const BufferHandle buffer = create_buffer(name, desc, where);
     ResourceRecord& resource = resources_[buffer.index];
+    resource.target = Target::kImportedBuffer;
     resource.origin = Origin::kImported;
     externals_.push_back(buffer.index);
     resource.external = external;
     resource.before = before;
     resource.after = after;
+    resource.filled = before != Access::kNone;
     return buffer;
 }
 
@@ -47,6 +50,7 @@ History GraphDescription::history(std::string_view name, const ImageDesc& desc, 
     ResourceRecord& next = resources_[pair.next.index];
     previous.origin = Origin::kHistoryPrevious;
     previous.partner = pair.next.index;
+    previous.filled = true;
     previous.restart = restart;
     next.origin = Origin::kHistoryNext;
     externals_.insert(externals_.end(), {pair.previous.index, pair.next.index});
@@ -54,11 +58,11 @@ History GraphDescription::history(std::string_view name, const ImageDesc& desc, 
     return pair;
 }
 
-void GraphDescription::output(ImageHandle image, Where where) {
+void GraphDescription::output(const ImageHandle& image, Where where) {
     if (check(image, kNoIndex, where)) outputs_.push_back({image.version, where});
 }
 
-void GraphDescription::output(BufferHandle buffer, Where where) {
+void GraphDescription::output(const BufferHandle& buffer, Where where) {
     if (check(buffer, kNoIndex, where)) outputs_.push_back({buffer.version, where});
 }
 
@@ -79,6 +83,7 @@ void GraphDescription::reset() {
     outputs_.clear();
     problems_.clear();
     arena_.reset();
+    in_order_ = true;
     ++generation_;
 }
 
@@ -89,10 +94,10 @@ void GraphDescription::report(Problem problem, uint32_t pass, uint32_t resource,
 
 /// For a pass declared further after others were added: they move up. Rare, and then short.
 AccessRecord& GraphDescription::insert_access(uint32_t pass) {
-    const size_t at = passes_[pass].first_access + passes_[pass].access_count++;
-    accesses_.emplace(accesses_.begin() + static_cast<ptrdiff_t>(at));
-    for (size_t i = pass + 1; i < passes_.size(); ++i) ++passes_[i].first_access;
-    return accesses_[at];
+    in_order_ = false;
+    const uint32_t at = passes_[pass].first_access + passes_[pass].access_count++;
+    for (uint32_t i = pass + 1; i < passes_.size(); ++i) ++passes_[i].first_access;
+    return accesses_.insert(at);
 }
 
 void PassBuilder::side_effect() {

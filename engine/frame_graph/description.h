@@ -8,8 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "engine/frame_graph/access.h"
 #include "engine/frame_graph/arena.h"
 #include "engine/frame_graph/diagnostics.h"
+#include "engine/frame_graph/record_list.h"
 #include "engine/frame_graph/records.h"
 #include "engine/frame_graph/types.h"
 
@@ -23,21 +25,22 @@ class PassBuilder {
     using Where = SourceLine;
 
     /// The pass reads this version.
-    void read(ImageHandle image, Access access, const ImageRange& range = {},
+    void read(const ImageHandle& image, Access access, const ImageRange& range = {},
               Where = Where::current());
-    void read(BufferHandle buffer, Access access, Where = Where::current());
+    void read(const BufferHandle& buffer, Access access, Where = Where::current());
 
     /// The pass writes the resource after this version; returns the version it produces.
-    [[nodiscard]] ImageHandle write(ImageHandle image, Access access, const ImageRange& range = {},
-                                    Load load = Load::kKeep, Where = Where::current());
-    [[nodiscard]] BufferHandle write(BufferHandle buffer, Access access, Load load = Load::kKeep,
-                                     Where = Where::current());
+    [[nodiscard]] ImageHandle write(const ImageHandle& image, Access access,
+                                    const ImageRange& range = {}, Load load = Load::kKeep,
+                                    Where = Where::current());
+    [[nodiscard]] BufferHandle write(const BufferHandle& buffer, Access access,
+                                     Load load = Load::kKeep, Where = Where::current());
 
     /// The next color attachment (location = order of the calls), one mip of one or all layers.
-    [[nodiscard]] ImageHandle color(ImageHandle image, const LoadOp& load = {},
+    [[nodiscard]] ImageHandle color(const ImageHandle& image, const LoadOp& load = {},
                                     const ImageRange& range = {}, Where = Where::current());
     /// The depth attachment, tested and written. For a test only: read(h, Access::kDepthReadOnly).
-    [[nodiscard]] ImageHandle depth(ImageHandle image, const LoadOp& load = {},
+    [[nodiscard]] ImageHandle depth(const ImageHandle& image, const LoadOp& load = {},
                                     const ImageRange& range = {}, Where = Where::current());
 
     /// Never culled: the pass does something the graph does not see.
@@ -92,8 +95,8 @@ class GraphDescription {
 
     /// Asks for this version: it stays intact to the end of the frame. Passes nothing asked for
     /// needs are culled.
-    void output(ImageHandle image, Where = Where::current());
-    void output(BufferHandle buffer, Where = Where::current());
+    void output(const ImageHandle& image, Where = Where::current());
+    void output(const BufferHandle& buffer, Where = Where::current());
 
     /// Copies text into the description, e.g. a name put together at run time.
     std::string_view text(std::string_view text);
@@ -101,19 +104,22 @@ class GraphDescription {
     /// Forgets everything but keeps the memory. Handles of before become stale.
     void reset();
 
-    [[nodiscard]] std::span<const ResourceRecord> resources() const { return resources_; }
-    [[nodiscard]] std::span<const VersionRecord> versions() const { return versions_; }
-    [[nodiscard]] std::span<const PassRecord> passes() const { return passes_; }
-    [[nodiscard]] std::span<const AccessRecord> accesses() const { return accesses_; }
+    [[nodiscard]] std::span<const ResourceRecord> resources() const { return resources_.span(); }
+    [[nodiscard]] std::span<const VersionRecord> versions() const { return versions_.span(); }
+    [[nodiscard]] std::span<const PassRecord> passes() const { return passes_.span(); }
+    [[nodiscard]] std::span<const AccessRecord> accesses() const { return accesses_.span(); }
     [[nodiscard]] std::span<const AccessRecord> accesses(uint32_t pass) const {
         return accesses().subspan(passes_[pass].first_access, passes_[pass].access_count);
     }
-    [[nodiscard]] std::span<const LoadOp> clears() const { return clears_; }
+    [[nodiscard]] std::span<const LoadOp> clears() const { return clears_.span(); }
     /// Resources that are not transient.
     [[nodiscard]] std::span<const uint32_t> externals() const { return externals_; }
     [[nodiscard]] std::span<const OutputRecord> outputs() const { return outputs_; }
     /// Mistakes seen while describing.
     [[nodiscard]] std::span<const Diagnostic> problems() const { return problems_; }
+    /// Every pass is declared after those that write what it needs and before those that overwrite
+    /// what it reads, and was not returned to once the next one was added.
+    [[nodiscard]] bool in_order() const { return in_order_; }
     [[nodiscard]] uint32_t generation() const { return generation_; }
 
   private:
@@ -127,7 +133,10 @@ class GraphDescription {
     uint32_t add_version(uint32_t pass, const Handle& handle, Where where);
     AccessRecord& add_access(uint32_t pass);
     AccessRecord& insert_access(uint32_t pass);
-    bool check(Handle handle, uint32_t pass, Where where) {
+    void narrow(AccessRecord& access, const ImageRange& range) const;
+    void attach(const AccessRecord& access);
+    void inspect(const AccessRecord& access);
+    bool check(const Handle& handle, uint32_t pass, Where where) {
         if (handle.generation == generation_ && handle.version < versions_.size() &&
             versions_[handle.version].resource == handle.index) {
             return true;
@@ -138,16 +147,17 @@ class GraphDescription {
     void report(Problem problem, uint32_t pass, uint32_t resource, Where where,
                 uint32_t other = kNoIndex);
 
-    std::vector<ResourceRecord> resources_;
-    std::vector<VersionRecord> versions_;
-    std::vector<PassRecord> passes_;
-    std::vector<AccessRecord> accesses_;
-    std::vector<LoadOp> clears_;
+    RecordList<ResourceRecord> resources_;
+    RecordList<VersionRecord> versions_;
+    RecordList<PassRecord> passes_;
+    RecordList<AccessRecord> accesses_;
+    RecordList<LoadOp> clears_;
     std::vector<uint32_t> externals_;
     std::vector<OutputRecord> outputs_;
     std::vector<Diagnostic> problems_;
     Arena arena_;
     uint32_t generation_ = 1;
+    bool in_order_ = true;
 };
 
 template <class F>

@@ -4,20 +4,42 @@
 
 namespace vellus::graph {
 
-void begin_lifetimes(CompileState& s) {
-    s.plan->placements.assign(s.graph->resources().size(), {});
-    s.readers.assign(s.graph->versions().size(), {});
+namespace {
+
+/// As the description counted them: every pass lives and runs where it is declared.
+void take_declared_lifetimes(CompileState& s) {
+    const auto resources = s.graph->resources();
+    s.plan->placements.resize(resources.size());
+    Placement* placement = s.plan->placements.data();
+    for (const ResourceRecord& resource : resources) {
+        *placement++ = {.usage = resource.usage,
+                        .first_step = resource.first_pass,
+                        .last_step = resource.last_pass};
+    }
 }
 
-void find_lifetimes(CompileState& s) {
-    if (!s.in_declared_order()) {
-        begin_lifetimes(s);
-        for (uint32_t position = 0; position < s.order.size(); ++position) {
-            for (const AccessRecord& access : s.graph->accesses(s.order[position])) {
-                count_access(access, info(access.access), s.plan->placements[access.resource],
-                             s.readers, position);
-            }
+void count_lifetimes(CompileState& s) {
+    s.plan->placements.assign(s.graph->resources().size(), {});
+    s.live_readers.assign(s.graph->versions().size(), {});
+    for (uint32_t position = 0; position < s.order.size(); ++position) {
+        for (const AccessRecord& access : s.graph->accesses(s.order[position])) {
+            const AccessInfo& how = info(access.access);
+            Placement& placement = s.plan->placements[access.resource];
+            placement.usage |= access.image ? how.image_usage : how.buffer_usage;
+            if (placement.first_step == kNoIndex) placement.first_step = position;
+            placement.last_step = position;
+            if (!access.write) s.live_readers[access.version].add(how);
         }
+    }
+}
+
+}  // namespace
+
+void find_lifetimes(CompileState& s) {
+    if (s.in_declared_order()) {
+        take_declared_lifetimes(s);
+    } else {
+        count_lifetimes(s);
     }
     for (const OutputRecord& output : s.graph->outputs()) {
         s.plan->placements[s.graph->versions()[output.version].resource].last_step = kNoIndex;
@@ -58,12 +80,18 @@ void place(CompileState& s, uint32_t resource) {
     placement.offset = block.offset;
     placement.bytes = needs.bytes;
     ResourceState& state = s.states[resource];
-    state.block = block;
     state.split = kNoIndex;
+    state.block = block.node;
     state.aliased = block.tag.stages != 0;  // then the tag holds; else it is all zero
-    state.whole = {.write_stages = block.tag.stages,
-                   .write_access = block.tag.write_access,
-                   .last_step = state.aliased ? block.tag.last_step : kNoIndex};
+    SyncState& whole = state.whole;         // field by field: = {} copies through memory and stalls
+    whole.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    whole.write_stages = block.tag.stages;
+    whole.write_access = block.tag.write_access;
+    whole.read_stages = 0;
+    whole.visible_stages = 0;
+    whole.visible_access = 0;
+    whole.last_step = state.aliased ? block.tag.last_step : kNoIndex;
+    whole.defined = false;
 }
 
 void release(CompileState& s, uint32_t resource) {

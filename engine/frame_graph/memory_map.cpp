@@ -148,7 +148,7 @@ void MemoryMap::cut_back(uint32_t node, uint64_t bytes) {
     link(back);
 }
 
-MemoryBlock MemoryMap::allocate_cold(uint64_t bytes, uint64_t alignment) {
+uint32_t MemoryMap::find_or_grow(uint64_t bytes, uint64_t alignment) {
     if (warm_ != kNil) settle();
     uint32_t node = find(bytes, alignment);
     if (node != kNil) {
@@ -160,7 +160,7 @@ MemoryBlock MemoryMap::allocate_cold(uint64_t bytes, uint64_t alignment) {
     if (padding != 0) cut_front(node, padding);
     if (nodes_[node].bytes > bytes) cut_back(node, bytes);
     high_water_ = std::max(high_water_, nodes_[node].offset + bytes);
-    return {node, nodes_[node].offset, nodes_[node].tag};
+    return node;
 }
 
 uint32_t MemoryMap::merge_with_after(uint32_t node) {

@@ -30,18 +30,16 @@ class MemoryMap {
     MemoryBlock allocate(uint64_t bytes, uint64_t alignment) {
         bytes = (std::max<uint64_t>(bytes, 1) + kGranule - 1) & ~(kGranule - 1);
         alignment = std::max(alignment, kGranule);
-        if (warm_ == kNil || nodes_[warm_].bytes != bytes ||
-            (nodes_[warm_].offset & (alignment - 1)) != 0) {
-            return allocate_cold(bytes, alignment);
-        }
-        const uint32_t warm = std::exchange(warm_, kNil);
-        return {warm, nodes_[warm].offset, nodes_[warm].tag};
+        const bool fits = warm_ != kNil && nodes_[warm_].bytes == bytes &&
+                          (nodes_[warm_].offset & (alignment - 1)) == 0;
+        const uint32_t node = fits ? std::exchange(warm_, kNil) : find_or_grow(bytes, alignment);
+        return {node, nodes_[node].offset, nodes_[node].tag};
     }
-    void free(const MemoryBlock& block, const MemoryTag& tag) {
-        assert(block.node < nodes_.size() && !nodes_[block.node].is_free && block.node != warm_);
+    void free(uint32_t node, const MemoryTag& tag) {
+        assert(node < nodes_.size() && !nodes_[node].is_free && node != warm_);
         if (warm_ != kNil) settle();
-        nodes_[block.node].tag = tag;  // the last owner waited for those before it
-        warm_ = block.node;
+        nodes_[node].tag = tag;  // the last owner waited for those before it
+        warm_ = node;
     }
     /// Bytes from 0 that were ever in use.
     [[nodiscard]] uint64_t high_water() const { return high_water_; }
@@ -63,7 +61,7 @@ class MemoryMap {
         bool is_free = false;
     };
 
-    MemoryBlock allocate_cold(uint64_t bytes, uint64_t alignment);
+    uint32_t find_or_grow(uint64_t bytes, uint64_t alignment);
     static uint32_t bin_of(uint64_t bytes);
     uint32_t new_node(const Node& node);
     uint32_t find(uint64_t bytes, uint64_t alignment) const;

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "engine/frame_graph/access.h"
 #include "engine/frame_graph/types.h"
 
 namespace vellus::graph {
@@ -16,9 +17,11 @@ enum class Origin : uint8_t { kTransient, kImported, kHistoryPrevious, kHistoryN
 struct ResourceRecord {
     std::string_view name;
     ResourceKind kind = ResourceKind::kImage;
+    Target target = Target::kColorImage;
     Origin origin = Origin::kTransient;
     Access before = Access::kNone;
     Access after = Access::kNone;
+    bool filled = false;                ///< has content before any pass
     bool restart = false;               ///< history only
     uint32_t partner = kNoIndex;        ///< history only: the other resource of the pair
     uint32_t first_version = kNoIndex;  ///< the content before any pass
@@ -29,6 +32,25 @@ struct ResourceRecord {
     uint64_t native_image = 0;  ///< VkImage, where there is no gpu::Image
     uint64_t native_view = 0;
     SourceLine where;
+    ImageRange all{0, 1, 0, 1};      ///< every subresource
+    uint32_t usage = 0;              ///< VkImageUsageFlags or VkBufferUsageFlags of all accesses
+    uint32_t first_pass = kNoIndex;  ///< that accesses it
+    uint32_t last_pass = kNoIndex;
+};
+
+/// All reads of one version, so that one barrier serves them all.
+struct Readers {
+    uint32_t stages = 0;
+    uint32_t access = 0;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    bool mixed_layouts = false;
+
+    void add(const AccessInfo& how) {
+        mixed_layouts |= stages != 0 && layout != how.layout;
+        layout = how.layout;
+        stages |= how.stages;
+        access |= how.access;
+    }
 };
 
 /// One value of a resource. The chain previous/next orders the writers.
@@ -38,12 +60,17 @@ struct VersionRecord {
     uint32_t previous = kNoIndex;  ///< version
     uint32_t next = kNoIndex;      ///< version
     uint32_t number = 0;           ///< counts from 0 per resource, for messages
+    Readers readers;
 };
 
 struct PassRecord {
     std::string_view name;
     PassKind kind = PassKind::kCompute;
     bool side_effect = false;
+    uint8_t colors = 0;  ///< attachments; kRaster only
+    uint8_t depths = 0;
+    uint32_t width = 0;  ///< of the attachments, pixels
+    uint32_t height = 0;
     uint32_t first_access = 0;  ///< into accesses()
     uint32_t access_count = 0;
     const void* closure = nullptr;

@@ -4,10 +4,6 @@ namespace vellus::graph {
 
 namespace {
 
-bool full_barriers(const CompileState& s) {
-    return s.options->switches.full_barriers || s.options->switches.immediate;
-}
-
 void begin(CompileState& s) {
     Plan& plan = *s.plan;
     plan.prologue.clear();
@@ -52,13 +48,13 @@ Use use_of(const CompileState& s, const AccessRecord& access, uint32_t step) {
             .write = access.write,
             .defines = access.write};
     if (!access.write) {
-        const Readers& readers = s.readers[access.version];
+        const Readers& readers = s.readers(access.version);
         if (!access.image || !readers.mixed_layouts) {
             use.dst_stages = readers.stages;
             use.dst_access = readers.access;
         }
     }
-    if (full_barriers(s)) {
+    if (s.full_barriers) {
         use.dst_stages = kAllStagesAndHost;
         use.dst_access = kAllAccess;
     }
@@ -104,7 +100,7 @@ Step& begin_step(CompileState& s, StepKind kind, uint32_t index) {
     step.kind = kind;
     step.index = index;
     step.first_barrier = first;
-    if (full_barriers(s)) {
+    if (s.full_barriers) {
         s.plan->barriers.push_back({.src_stages = kAllStagesAndHost,
                                     .src_access = VK_ACCESS_MEMORY_WRITE_BIT,
                                     .dst_stages = kAllStagesAndHost,
@@ -161,9 +157,9 @@ void poison_new(CompileState& s, uint32_t pass) {
 void give_back(CompileState& s, uint32_t step) {
     for (const uint32_t resource : s.stack) {
         ResourceState& state = s.states[resource];
-        if (state.block.node == kNoIndex) continue;  // listed twice
+        if (state.block == kNoIndex) continue;  // listed twice
         release(s, resource);
-        state.block.node = kNoIndex;
+        state.block = kNoIndex;
         s.plan->placements[resource].last_step = step;
     }
 }

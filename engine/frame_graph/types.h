@@ -48,6 +48,9 @@ struct History {
 /// done.
 enum class PassKind : uint8_t { kCompute, kRaster, kTransfer, kHost };
 
+/// What an access may touch.
+enum class Target : uint8_t { kColorImage, kDepthImage, kTransientBuffer, kImportedBuffer };
+
 /// How a pass touches a resource: decides stages, access bits, layout and usage (access.h).
 enum class Access : uint8_t {
     kNone,

@@ -332,6 +332,37 @@ TEST_F(CompileTest, ConflictingAccessInOnePass) {
     expect_parts(mistake(), {here(__LINE__ - 1), "'both'", "'x'", "exclude each other"});
 }
 
+// "early" goes on after "late" touched x too; only its own accesses count.
+TEST_F(CompileTest, ConflictOfAPassDeclaredFurtherLater) {
+    const auto x = make("x");
+    auto early = compute("early");
+    auto late = compute("late");
+    early.read(x, Access::kSampledCompute);
+    late.read(x, Access::kSampledCompute);
+    early.read(x, Access::kStorageRead);
+    expect_parts(mistake(), {here(__LINE__ - 1), "'early'", "'x'", "exclude each other"});
+}
+
+TEST_F(CompileTest, AttachmentOfSeveralMips) {
+    auto pass = g_.add_pass("draw", PassKind::kRaster);
+    const auto image = g_.create_image("pyramid", {gpu::Format::kRgba16Float, 32, 32, 1, 3});
+    static_cast<void>(pass.color(image, clear(0)));
+    expect_parts(mistake(), {here(__LINE__ - 1), "'draw'", "'pyramid'", "not possible"});
+}
+
+TEST_F(CompileTest, DrawingToNothing) {
+    g_.add_pass("draw", PassKind::kRaster).side_effect();
+    expect_parts(mistake(), {here(__LINE__ - 1), "'draw'", "not possible"});
+}
+
+TEST_F(CompileTest, MoreColorsThanAnyDeviceMustHave) {
+    auto pass = g_.add_pass("draw", PassKind::kRaster);
+    for (int i = 0; i < 9; ++i) {
+        static_cast<void>(pass.color(g_.create_image("x", kColor), clear(0)));
+    }
+    expect_parts(mistake(), {"'draw'", "not possible"});
+}
+
 TEST_F(CompileTest, TwoLayoutsAtOnceConflict) {
     const auto x = make("x");
     auto pass = compute("both");
@@ -372,6 +403,21 @@ TEST_F(CompileTest, FormatTheDeviceDoesNotSupport) {
     EXPECT_FALSE(compiler_.compile(g_, {.format_usage = &none}, plan_, diagnostics_));
     ASSERT_EQ(diagnostics_.size(), 1U);
     EXPECT_EQ(diagnostics_[0].problem, Problem::kUnsupportedFormat);
+}
+
+TEST_F(CompileTest, RangeOutsideTheImage) {
+    auto pass = compute("shade");
+    static_cast<void>(
+        pass.write(g_.create_image("x", kColor), Access::kStorageWrite, {1, 1, 0, 1}));
+    expect_parts(mistake(), {here(__LINE__ - 1), "'shade'", "'x'", "not possible"});
+}
+
+TEST_F(CompileTest, HostReadOfTransientMemory) {
+    auto fill = compute("fill");
+    const auto buffer = fill.write(g_.create_buffer("b", {64}), Access::kStorageWrite);
+    auto pass = g_.add_pass("look", PassKind::kHost);
+    pass.read(buffer, Access::kHostRead);
+    expect_parts(mistake(), {here(__LINE__ - 1), "'look'", "'b'", "not possible"});
 }
 
 TEST_F(CompileTest, UnsupportedUsage) {

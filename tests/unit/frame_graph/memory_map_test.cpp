@@ -29,7 +29,7 @@ TEST(MemoryMap, RandomUseNeverOverlapsAndRemembersOwners) {
             if (!live.empty() && below(2) == 0) {
                 const size_t victim = below(static_cast<uint32_t>(live.size()));
                 const uint32_t tag = 1U << below(16);
-                map.free(live[victim].block, {tag, tag, i});
+                map.free(live[victim].block.node, {tag, tag, i});
                 const uint64_t first = live[victim].block.offset / 64;
                 std::fill_n(last_tag.begin() + static_cast<ptrdiff_t>(first),
                             (live[victim].bytes + 63) / 64, tag);
@@ -58,9 +58,9 @@ TEST(MemoryMap, NeighboursMergeAndAreUsedAgain) {
     map.reset();
     const MemoryBlock a = map.allocate(1024, 64), b = map.allocate(1024, 64),
                       c = map.allocate(1024, 64);
-    map.free(a, {1, 0, 0});
-    map.free(c, {4, 0, 0});
-    map.free(b, {2, 0, 0});
+    map.free(a.node, {1, 0, 0});
+    map.free(c.node, {4, 0, 0});
+    map.free(b.node, {2, 0, 0});
     const MemoryBlock all = map.allocate(3072, 64);
     EXPECT_EQ(all.offset, 0U);
     EXPECT_EQ(all.tag.stages, 7U);

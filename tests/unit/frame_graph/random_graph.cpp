@@ -36,6 +36,11 @@ struct Thing {
     uint32_t used_by = kNoIndex;
 };
 
+struct Declared {
+    PassBuilder pass;
+    PassKind kind;
+};
+
 class Generator {
   public:
     Generator(Choices& choices, bool mischief, GraphDescription& graph)
@@ -213,11 +218,34 @@ class Generator {
             Thing& thing = things_[c_.below(static_cast<uint32_t>(things_.size()))];
             if (thing.used_by == p && !mischief_) continue;
             thing.used_by = p;
-            if (thing.buffer.empty())
-                touch_image(pass, thing, kind, has_depth);
-            else
-                touch_buffer(pass, thing, kind);
+            touch(pass, thing, kind, has_depth);
         }
+        if (!passes_.empty() && c_.one_in(6))
+            return_to(passes_[c_.below(static_cast<uint32_t>(passes_.size()))]);
+        passes_.push_back({pass, kind});
+    }
+
+    void touch(PassBuilder& pass, Thing& thing, PassKind kind, bool& has_depth) {
+        if (thing.buffer.empty())
+            touch_image(pass, thing, kind, has_depth);
+        else
+            touch_buffer(pass, thing, kind);
+    }
+
+    /// Declares a pass further after others were added: it makes something new. Anything else may
+    /// be a mistake.
+    void return_to(Declared& earlier) {
+        bool has_depth = true;
+        if (mischief_) {
+            touch(earlier.pass, things_[c_.below(static_cast<uint32_t>(things_.size()))],
+                  earlier.kind, has_depth);
+        }
+        if (earlier.kind != PassKind::kCompute) return;
+        Thing thing{.desc = {gpu::Format::kRgba16Float, 16, 16}, .readable = true};
+        const std::string_view name = g_.text(fmt::format("late{}", things_.size()));
+        thing.image.push_back(g_.create_image(name, thing.desc));
+        thing.image.push_back(earlier.pass.write(thing.image.back(), Access::kStorageWrite));
+        things_.push_back(thing);
     }
 
     void finish_history() {
@@ -242,6 +270,7 @@ class Generator {
     GraphDescription& g_;
     std::vector<Thing> things_;
     std::vector<uint32_t> next_of_history_;
+    std::vector<Declared> passes_;
 };
 
 }  // namespace
