@@ -13,6 +13,7 @@ void register_hair(World& world, Schedule& schedule) {
     world.insert_resource(HairLibrary{});
     world.insert_resource(HairFrame{});
     world.insert_resource(HairPipelines{});
+    world.insert_resource(FibreLibrary{});
     world.insert_resource(HairShadowMaps{});
     world.insert_resource(HairBindings{});
     world.insert_resource(HairPoses{});

@@ -10,7 +10,9 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kOpacity = {"dither", "dither_still"};
 constexpr std::array<std::string_view, 2> kShadow = {"none", "pcf_exponential"};
-constexpr std::array<std::string_view, 1> kScattering = {"karis"};
+constexpr std::array<std::string_view, kScatteringTechniques> kScattering = {
+    "karis",    "kajiya_kay",   "marschner", "karis_rational", "series_gaussian", "series_a2",
+    "series_b", "series_exact", "deon"};
 constexpr std::array<std::string_view, 2> kMultiple = {"none", "fake_normal"};
 constexpr std::array<std::string_view, 2> kEnvironment = {"none", "sh"};
 

@@ -11,7 +11,20 @@ namespace vellus::hair {
 
 enum class OpacityTechnique : uint8_t { kDither, kDitherStill };
 enum class ShadowTechnique : uint8_t { kNone, kPcfExponential };
-enum class ScatteringTechnique : uint8_t { kKaris };
+/// In the order of shaders/hair/scattering/scattering.glsl.
+enum class ScatteringTechnique : uint8_t {
+    kKaris,
+    kKajiyaKay,
+    kMarschner,
+    kKarisRational,
+    kSeriesGaussian,
+    kSeriesA2,
+    kSeriesB,
+    kSeriesExact,
+    kDeon,
+};
+constexpr uint32_t kScatteringTechniques = 9;
+/// In the order of shaders/hair/scattering/scattering.glsl.
 enum class MultipleTechnique : uint8_t { kNone, kFakeNormal };
 enum class EnvironmentTechnique : uint8_t { kNone, kSh };
 

@@ -4,16 +4,19 @@
 // shaders/. C++: modules/<m>/.../NAME.h includes shaders/common/portable.h, opens
 // `namespace vellus::<m>::glsl { using namespace vellus::glsl; ... }` and includes NAME.glsl there.
 // Headers write VELLUS_FN before functions, VELLUS_OUT(T) / VELLUS_INOUT(T) for reference parameters,
+// VELLUS_IN(T) for large ones that are only read,
 // float literals with f, no swizzles, no array or struct constructors, no fused declarations of both.
 #ifndef VELLUS_PORTABLE_GLSL
 #define VELLUS_PORTABLE_GLSL
 
 #ifdef __cplusplus
 #define VELLUS_FN inline
+#define VELLUS_IN(type) const type&
 #define VELLUS_OUT(type) type&
 #define VELLUS_INOUT(type) type&
 #else
 #define VELLUS_FN
+#define VELLUS_IN(type) type
 #define VELLUS_OUT(type) out type
 #define VELLUS_INOUT(type) inout type
 #endif

@@ -100,7 +100,10 @@ HairDraw describe_draw(const LibraryGroom& groom, const glm::dmat4& world,
             .alpha = material.alpha,
             .opacity = techniques.opacity,
             .shadowed = techniques.shadow == ShadowTechnique::kPcfExponential,
-            .environment_lit = techniques.environment == EnvironmentTechnique::kSh};
+            .environment_lit = techniques.environment == EnvironmentTechnique::kSh,
+            .scattering = techniques.scattering,
+            .multiple = techniques.multiple,
+            .optics = fibre_optics(material)};
 }
 
 HairInstance describe_instance(const LibraryGroom& groom, const HairMaterial& material,
@@ -122,8 +125,7 @@ HairInstance describe_instance(const LibraryGroom& groom, const HairMaterial& ma
     instance.gradient_start = material.gradient_start;
     instance.specular = material.specular;
     instance.roughness = material.roughness;
-    instance.scatter =
-        techniques.multiple == MultipleTechnique::kFakeNormal ? material.scatter : 0.0f;
+    instance.scatter = techniques.multiple == MultipleTechnique::kNone ? 0.0f : material.scatter;
     instance.shift = std::sin(material.shift);
     instance.shadow_falloff = shadow.falloff;
     instance.shadow_first = shadow.first;

@@ -8,6 +8,7 @@
 #include "modules/character/components.h"
 #include "modules/hair/binding/hair_pose.h"
 #include "modules/hair/components.h"
+#include "modules/hair/scattering/fibre_library.h"
 #include "modules/light/light_set.h"
 #include "modules/scene/bounds.h"
 #include "modules/scene/components.h"
@@ -82,6 +83,9 @@ struct HairDraw {
     uint32_t first_point = 0;
     bool shadowed = false;
     bool environment_lit = false;
+    ScatteringTechnique scattering = ScatteringTechnique::kKaris;
+    MultipleTechnique multiple = MultipleTechnique::kFakeNormal;
+    FibreOptics optics;
     PixelRect rect;
 };
 
@@ -119,6 +123,7 @@ struct HairFrame {
     uint32_t points = 0;
     uint32_t segments = 0;
     std::vector<gpu::UniformSlice> instance_blocks;  ///< uploads of `instances`
+    std::vector<gpu::UniformSlice> fibre_blocks;     ///< their fibres, where a technique reads one
     graph::BufferHandle deformed;                    ///< points of `deforms`; invalid without any
     graph::BufferHandle projected;                   ///< of this frame's graph, as the next
     graph::BufferHandle visibility;                  ///< closest segment of each pixel

@@ -88,11 +88,19 @@ void assign_hair_shadows(Res<const HairFrame> hair, Res<light::LightSet> lights,
 }
 
 void describe_hair_projection(Res<HairFrame> hair, Res<HairPipelines> pipelines,
-                              Res<scene::RenderFrame> frame) {
+                              Res<FibreLibrary> fibres, Res<scene::RenderFrame> frame) {
     if (hair->draws.empty()) return;
     hair->instance_blocks.clear();
-    for (const HairInstance& instance : hair->instances) {
-        hair->instance_blocks.push_back(frame->uploads.push_uniform(instance));
+    hair->fibre_blocks.clear();
+    for (size_t i = 0; i < hair->instances.size(); ++i) {
+        const HairInstance& instance = hair->instances[i];
+        const HairDraw& draw = hair->draws[i];
+        const auto block = frame->uploads.push_uniform(instance);
+        hair->instance_blocks.push_back(block);
+        hair->fibre_blocks.push_back(needs_fibre(draw.scattering)
+                                         ? frame->uploads.push_uniform(fibres->fibre(
+                                               draw.optics, instance.roughness, instance.shift))
+                                         : block);
     }
     if (!frame->compute(pipelines->project, [] {
             return compute_info("hair/geometry/project.comp.glsl", sizeof(ProjectPush));
@@ -244,10 +252,14 @@ graph::BufferHandle describe_visibility(const HairFrame& hair, HairPipelines& pi
     return target;
 }
 
-const gpu::Pipeline*& shade_slot(HairPipelines& pipelines, const HairDraw& draw,
-                                 const light::LightBlock& lights) {
-    return pipelines.shade[lights.count][draw.shadowed ? 1 : 0][draw.environment_lit ? 1 : 0]
-                          [lights.opaque_casters > 0 ? 1 : 0][draw.deform != kNotDeformed ? 1 : 0];
+ShadeConstants shade_constants(const HairDraw& draw, const light::LightBlock& lights) {
+    return {lights.count,
+            draw.shadowed ? 1u : 0u,
+            draw.environment_lit ? 1u : 0u,
+            lights.opaque_casters > 0 ? 1u : 0u,
+            draw.deform != kNotDeformed ? 1u : 0u,
+            static_cast<uint32_t>(draw.scattering),
+            static_cast<uint32_t>(draw.multiple)};
 }
 
 bool make_pipelines(const HairFrame& hair, const light::LightBlock& lights,
@@ -259,14 +271,13 @@ bool make_pipelines(const HairFrame& hair, const light::LightBlock& lights,
             return compute_info("hair/geometry/visibility.comp.glsl", sizeof(VisibilityPush), {},
                                 {moving ? 0u : 1u});
         });
-        ready &= frame.compute(shade_slot(pipelines, draw, lights), [&] {
+        const ShadeConstants constants = shade_constants(draw, lights);
+        ready &= frame.compute(pipelines.shade[constants], [&] {
             using enum gpu::Binding;
-            return compute_info(
-                "hair/scattering/shade.comp.glsl", sizeof(ShadePush),
-                {kSampledNearest, kSampledNearest, kStorage, kStorage, kUniform, kUniform,
-                 kUniform},
-                {lights.count, draw.shadowed ? 1u : 0u, draw.environment_lit ? 1u : 0u,
-                 lights.opaque_casters > 0 ? 1u : 0u, draw.deform != kNotDeformed ? 1u : 0u});
+            return compute_info("hair/scattering/shade.comp.glsl", sizeof(ShadePush),
+                                {kSampledNearest, kSampledNearest, kStorage, kStorage, kUniform,
+                                 kUniform, kUniform, kUniform},
+                                {constants.begin(), constants.end()});
         });
     }
     return ready;
@@ -300,10 +311,11 @@ void describe_hair(Res<HairFrame> hair, Res<const light::LightSet> lights,
         gpu::CommandBuffer& commands = context.commands();
         for (size_t i = 0; i < hair->draws.size(); ++i) {
             const HairDraw& draw = hair->draws[i];
-            commands.bind(*shade_slot(*pipelines, draw, *block));
-            commands.images({context.view(depth), context.view(shadows), context.view(color),
-                             context.view(velocity)},
-                            {view_block, lights_block, hair->instance_blocks[i]});
+            commands.bind(*pipelines->shade[shade_constants(draw, *block)]);
+            commands.images(
+                {context.view(depth), context.view(shadows), context.view(color),
+                 context.view(velocity)},
+                {view_block, lights_block, hair->instance_blocks[i], hair->fibre_blocks[i]});
             commands.push(ShadePush{.visibility = context.address(visibility),
                                     .projected = context.address(projected),
                                     .first_id = draw.first_id,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 
 #include "modules/hair/geometry/hair_frame.h"
 #include "modules/hair/geometry/strand_raster.h"
@@ -8,16 +9,16 @@
 
 namespace vellus::hair {
 
+/// Specialization constants 0, 1, ... of shade.comp.glsl; see there.
+using ShadeConstants = std::array<uint32_t, 7>;
+
 /// Pipelines of the hair passes, made when first needed. Resource.
 struct HairPipelines {
     const gpu::Pipeline* project = nullptr;
     const gpu::Pipeline* visibility = nullptr;
     const gpu::Pipeline* visibility_still = nullptr;
     const gpu::Pipeline* shadow_depth = nullptr;
-    /// By number of lights, shadowed, environment lit, opaque casters, deformed.
-    std::array<std::array<std::array<std::array<std::array<const gpu::Pipeline*, 2>, 2>, 2>, 2>,
-               light::kMaxLights + 1>
-        shade{};
+    std::map<ShadeConstants, const gpu::Pipeline*> shade;
 };
 
 /// Hair depth of all lights, float bits of reversed depth; made when a light first shadows hair.
@@ -32,7 +33,7 @@ void assign_hair_shadows(Res<const HairFrame> hair, Res<light::LightSet> lights,
 
 /// System: pass "hair/project", all points to pixels.
 void describe_hair_projection(Res<HairFrame> hair, Res<HairPipelines> pipelines,
-                              Res<scene::RenderFrame> frame);
+                              Res<FibreLibrary> fibres, Res<scene::RenderFrame> frame);
 
 /// System: passes "hair/shadow_*", the closest hair seen from each light.
 void describe_hair_shadows(Res<const HairFrame> hair, Res<const light::LightSet> lights,

@@ -90,6 +90,8 @@ void read_material(JsonFields& fields, HairMaterial& material) {
         inner.number("scatter", 0.0, 4.0, material.scatter);
         inner.number("shift", -0.2, 0.2, material.shift);
         inner.number("alpha", 0.0, 1.0, material.alpha);
+        inner.number("eta", 1.1, 3.0, material.eta);
+        inner.number("azimuthal", 0.5, 2.0, material.azimuthal);
     });
 }
 

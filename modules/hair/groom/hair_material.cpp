@@ -63,6 +63,8 @@ std::vector<std::string> clamp_to_ranges(HairMaterial& material) {
     clamper.scalar("scatter", material.scatter, 0.0f, 4.0f, fallback.scatter);
     clamper.scalar("shift", material.shift, -0.2f, 0.2f, fallback.shift);
     clamper.scalar("alpha", material.alpha, 0.0f, 1.0f, fallback.alpha);
+    clamper.scalar("eta", material.eta, 1.1f, 3.0f, fallback.eta);
+    clamper.scalar("azimuthal", material.azimuthal, 0.5f, 2.0f, fallback.azimuthal);
     return clamper.take();
 }
 

@@ -29,6 +29,10 @@ struct HairMaterial {
     float shift = 0.035f;
     /// Opacity of a strand, in [0, 1].
     float alpha = 1.0f;
+    /// Index of refraction, in [1.1, 3]; Karis's fits hold at 1.55 only.
+    float eta = 1.55f;
+    /// Factor on Karis's azimuthal widths, in [0.5, 2]; his fits hold at 1 only.
+    float azimuthal = 1.0f;
 };
 
 /// Diameter of a strand and its taper.

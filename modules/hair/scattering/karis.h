@@ -1,9 +1,3 @@
 #pragma once
 
-#include "shaders/common/portable.h"
-
-/// The shader's own functions, compiled as C++ in float.
-namespace vellus::hair::glsl {
-using namespace vellus::glsl;  // NOLINT(google-build-using-namespace)
-#include "hair/scattering/karis.glsl"
-}  // namespace vellus::hair::glsl
+#include "modules/hair/scattering/fibre.h"

@@ -30,6 +30,15 @@ struct HairFrame {
     float cos_r;
 };
 
+/// A light path's angles, by sines, cosines and chords; no inverse trigonometry.
+struct HairAngles {
+    float sin_i;
+    float cos_i;
+    float cos_half_phi;  // >= 0
+    float cos_phi;
+    float cos_d;  // of half the difference of the inclinations
+};
+
 const float kHairMinBeta = 1.0e-3f;  // v = β² >= 1e-6
 const float kHairMinCosD = 1.0e-4f;
 const float kHairDegenerate = 1.0e-7f;  // cos² of the inclination where the azimuth fades out
@@ -49,6 +58,26 @@ VELLUS_FN HairFrame hair_frame(vec3 tangent, vec3 to_view) {
     f.fade = kHairDegenerate * scale * scale;
     f.cos_r = min(sqrt(cos2), 1.0f);
     return f;
+}
+
+/// Angles of a path from `to_light` (unit) to the eye.
+VELLUS_FN HairAngles hair_angles(HairFrame f, vec3 to_light) {
+    HairAngles a;
+    a.sin_i = clamp(dot(f.tangent, to_light), -1.0f, 1.0f);
+    vec3 across = to_light - a.sin_i * f.tangent;
+    float cos2 = dot(across, across);
+    a.cos_i = min(sqrt(cos2), 1.0f);
+    // cos² φ/2 by the chord of the two azimuths, exact near φ = π where R is narrow; where an azimuth has
+    // faded away φ tends to 90°.
+    float scale = inversesqrt(cos2 + kHairDegenerate);
+    vec3 chord = across * scale + f.normal;
+    float half_phi2 =
+        min(0.25f * (dot(chord, chord) + f.fade + kHairDegenerate * scale * scale), 1.0f);
+    a.cos_half_phi = sqrt(half_phi2);
+    a.cos_phi = 2.0f * half_phi2 - 1.0f;
+    // cos θd = cos ((θr - θi) / 2), by the chord of the two inclinations.
+    a.cos_d = min(0.5f * sqrt(square(a.cos_i + f.cos_r) + square(a.sin_i + f.sin_r)), 1.0f);
+    return a;
 }
 
 /// Schlick's Fresnel reflectance at η = 1.55.
@@ -79,54 +108,54 @@ VELLUS_FN float karis_r(HairSurface s, HairFrame f, float sin_i, float cos_i, fl
     return scale * lobe * hair_fresnel(sqrt(half2));
 }
 
-/// M_TT N_TT: h by the slides' fit (1 - h² clamped), absorption C^(√(1 - h²a²) / 2 cos θd) as shipped,
-/// D ≈ e^(-3.65 cos φ - 3.98).
-VELLUS_FN vec3 karis_tt(HairSurface s, vec3 log2_color, float sin_sum, float cos_d, float cos_phi,
-                        float cos_half_phi) {
-    float beta = max(0.5f * s.roughness * s.roughness, kHairMinBeta);
-    float x = (sin_sum - s.shift) / beta;
+/// N_TT times 2^lobe: h by the slides' fit (1 - h² clamped), absorption C^(√(1 - h²a²) / 2 cos θd) as
+/// shipped, D ≈ e^(-3.65 cos φ - 3.98).
+VELLUS_FN vec3 karis_tt_azimuthal(vec3 log2_color, float lobe, float cos_d, float cos_phi,
+                                  float cos_half_phi) {
     float a = cos_d / (1.19f + 0.36f * cos_d * cos_d);  // 1/η′
     float h = (1.0f + a * (0.6f - 0.8f * cos_phi)) * cos_half_phi;
     float h2 = min(h * h, 1.0f);
     float through = 1.0f - hair_fresnel(cos_d * sqrt(1.0f - h2));
     float path = 0.5f * sqrt(1.0f - h2 * a * a) / max(cos_d, kHairMinCosD);
-    float lobe = -0.5f * kLog2E * x * x - kLog2E * (3.65f * cos_phi + 3.98f);
-    return exp2(log2_color * path + vec3(lobe)) * (0.398942280f / beta * through * through);
+    float exponent = lobe - kLog2E * (3.65f * cos_phi + 3.98f);
+    return exp2(log2_color * path + vec3(exponent)) * (through * through);
 }
 
-/// M_TRT N_TRT: h = √3/2, absorption C^(0.8 / cos θd), D ≈ e^(17 cos φ - 16.78).
+/// M_TT N_TT.
+VELLUS_FN vec3 karis_tt(HairSurface s, vec3 log2_color, float sin_sum, float cos_d, float cos_phi,
+                        float cos_half_phi) {
+    float beta = max(0.5f * s.roughness * s.roughness, kHairMinBeta);
+    float x = (sin_sum - s.shift) / beta;
+    return karis_tt_azimuthal(log2_color, -0.5f * kLog2E * x * x, cos_d, cos_phi, cos_half_phi) *
+           (0.398942280f / beta);
+}
+
+/// N_TRT times 2^lobe: h = √3/2, absorption C^(0.8 / cos θd), D ≈ e^(17 cos φ - 16.78).
+VELLUS_FN vec3 karis_trt_azimuthal(vec3 log2_color, float lobe, float cos_d, float cos_phi) {
+    float reflected = hair_fresnel(0.5f * cos_d);
+    float through = 1.0f - reflected;
+    float exponent = lobe + kLog2E * (17.0f * cos_phi - 16.78f);
+    vec3 absorbed = exp2(log2_color * (0.8f / max(cos_d, kHairMinCosD)) + vec3(exponent));
+    return absorbed * (through * through * reflected);
+}
+
+/// M_TRT N_TRT.
 VELLUS_FN vec3 karis_trt(HairSurface s, vec3 log2_color, float sin_sum, float cos_d, float cos_phi,
                          float added_beta) {
     float beta = max(2.0f * s.roughness * s.roughness, kHairMinBeta) + added_beta;
     float x = (sin_sum - 4.0f * s.shift) / beta;
-    float reflected = hair_fresnel(0.5f * cos_d);
-    float through = 1.0f - reflected;
-    float lobe = -0.5f * kLog2E * x * x + kLog2E * (17.0f * cos_phi - 16.78f);
-    vec3 absorbed = exp2(log2_color * (0.8f / max(cos_d, kHairMinCosD)) + vec3(lobe));
-    return absorbed * (0.398942280f / beta * through * through * reflected);
+    return karis_trt_azimuthal(log2_color, -0.5f * kLog2E * x * x, cos_d, cos_phi) *
+           (0.398942280f / beta);
 }
 
 /// S = R + TT + TRT [1/sr] for a beam from `to_light` (unit).
 VELLUS_FN vec3 karis_bsdf(HairSurface s, HairFrame f, vec3 to_light) {
-    float sin_i = clamp(dot(f.tangent, to_light), -1.0f, 1.0f);
-    vec3 across = to_light - sin_i * f.tangent;
-    float cos2 = dot(across, across);
-    float cos_i = min(sqrt(cos2), 1.0f);
-    // cos² φ/2 by the chord of the two azimuths, exact near φ = π where R is narrow; where an azimuth has
-    // faded away φ tends to 90°.
-    float scale = inversesqrt(cos2 + kHairDegenerate);
-    vec3 chord = across * scale + f.normal;
-    float half_phi2 =
-        min(0.25f * (dot(chord, chord) + f.fade + kHairDegenerate * scale * scale), 1.0f);
-    float cos_half_phi = sqrt(half_phi2);
-    float cos_phi = 2.0f * half_phi2 - 1.0f;
-    float sin_sum = sin_i + f.sin_r;
-    // cos θd = cos ((θr - θi) / 2), by the chord of the two inclinations.
-    float cos_d = min(0.5f * sqrt(square(cos_i + f.cos_r) + square(sin_sum)), 1.0f);
+    HairAngles a = hair_angles(f, to_light);
+    float sin_sum = a.sin_i + f.sin_r;
     vec3 log2_color = hair_log2_color(s.base_color);
-    return vec3(karis_r(s, f, sin_i, cos_i, cos_half_phi, 0.0f)) +
-           karis_tt(s, log2_color, sin_sum, cos_d, cos_phi, cos_half_phi) +
-           karis_trt(s, log2_color, sin_sum, cos_d, cos_phi, 0.0f);
+    return vec3(karis_r(s, f, a.sin_i, a.cos_i, a.cos_half_phi, 0.0f)) +
+           karis_tt(s, log2_color, sin_sum, a.cos_d, a.cos_phi, a.cos_half_phi) +
+           karis_trt(s, log2_color, sin_sum, a.cos_d, a.cos_phi, 0.0f);
 }
 
 /// Fake-normal scattering [1/sr]: √C (n·ω_i + 1)/4π (C/Luma)^(1 - shadow), scaled by `scatter`; shadow 1

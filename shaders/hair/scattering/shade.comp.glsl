@@ -3,7 +3,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "common/view.glsl"
 #include "hair/geometry/instance.glsl"
-#include "hair/scattering/karis.glsl"
+#include "hair/scattering/scattering.glsl"
 #include "hair/shadow/hair_shadow.glsl"
 #include "light/opaque_shadow.glsl"
 
@@ -15,6 +15,8 @@ layout(constant_id = 0) const uint kLightCount = 4;
 layout(constant_id = 1) const bool kShadowed = true;
 layout(constant_id = 2) const bool kEnvironmentLit = true;
 layout(constant_id = 3) const bool kOpaqueCasters = true;
+layout(constant_id = 5) const int kScattering = 0;
+layout(constant_id = 6) const int kMultiple = 1;
 layout(constant_id = 4) const bool kDeformed = false;  // its points move by themselves
 
 layout(push_constant, scalar) uniform Push {
@@ -34,6 +36,8 @@ layout(binding = 3, rg16f) uniform writeonly image2D velocity;
 layout(binding = 4, scalar) uniform Views { View view; };
 layout(binding = 5, scalar) uniform LightsBlock { LightBlock lights; };
 layout(binding = 6, scalar) uniform Instance { HairInstance hair; };
+// Where the techniques need no fibre, something else is bound and nothing read.
+layout(binding = 7, scalar) uniform Fibre { HairFibre fibre; };
 
 float shadow_of(PunctualLight light, vec3 position) {
     if (!kShadowed || light.shadow_tile == kNoShadow) return 1.0;
@@ -47,12 +51,14 @@ float shadow_of(PunctualLight light, vec3 position) {
 
 vec3 shade(HairSurface surface, vec3 position, vec3 tangent) {
     HairFrame frame = hair_frame(tangent, normalize(-position));
+    HairEye eye = hair_eye(fibre, frame);
     vec3 radiance = vec3(0.0);
     [[unroll]] for (uint i = 0u; i < kLightCount; ++i) {
         vec3 to_light;
         vec3 irradiance = light_irradiance(lights.light[i], position, to_light);
         float shadow = shadow_of(lights.light[i], position);
-        radiance += irradiance * karis_direct(surface, frame, to_light, shadow);
+        radiance += irradiance * hair_direct(kScattering, kMultiple, fibre, surface, frame, eye,
+                                             to_light, shadow);
     }
     if (kEnvironmentLit) {
         radiance += karis_environment(surface, frame,
