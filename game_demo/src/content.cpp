@@ -5,7 +5,6 @@
 #include "engine/asset/gltf.h"
 #include "engine/platform/log.h"
 #include "modules/character/components.h"
-#include "modules/character/mesh_library.h"
 #include "modules/hair/components.h"
 #include "modules/hair/spawn.h"
 #include "modules/light/load_environment.h"
@@ -41,53 +40,58 @@ bool is_groom(const asset::SceneAsset& scene) {
     return lines;
 }
 
-Result<LoadedContent> use_default_sky(World& world, gpu::Device& device) {
-    if (auto made = light::use_sky(world, device, {}); !made) return made.error();
+Result<LoadedContent> use_default_sky(ContentHost& host) {
+    if (auto made = host.set_environment(light::sky_environment({})); !made) return made.error();
     return LoadedContent{.default_sky = true};
 }
 
-Result<LoadedContent> load_environment(World& world, gpu::Device& device,
-                                       const asset::SceneAsset& scene) {
+Result<LoadedContent> load_environment(ContentHost& host, const asset::SceneAsset& scene) {
     const std::string* json =
         scene::find_extension(scene.extensions, light::kEnvironmentExtensionName);
-    if (!json) return use_default_sky(world, device);
+    if (!json) return use_default_sky(host);
     auto environment = light::parse_environment_extension(*json, scene.path.string());
     if (!environment) return environment.error();
     for (const std::string& warning : environment->warnings) log_warning("{}", warning);
-    auto done = light::load_environment(world, device, *environment, scene.path.parent_path());
-    if (!done) return done.error();
+    auto image = light::read_environment(*environment, scene.path.parent_path());
+    if (!image) return image.error();
+    if (auto made = host.set_environment(*image); !made) return made.error();
     return LoadedContent{};
 }
 
-Result<LoadedContent> load_scene(World& world, gpu::Device& device,
+hair::AddGroom adding_to(ContentHost& host) {
+    return [&host](const std::filesystem::path& path, bool upright) {
+        return host.add_groom(path, upright);
+    };
+}
+
+Result<LoadedContent> load_scene(ContentHost& host,
                                  const std::shared_ptr<const asset::SceneAsset>& scene) {
+    World& world = host.world();
     for (const std::string& warning : scene->warnings) log_warning("{}", warning);
     auto instance = scene::instantiate(world, scene);
     if (!instance) return instance.error();
-    auto meshes = world.resource<character::MeshLibrary>().update(
-        device, world.resource<scene::SceneLibrary>());
-    if (!meshes) return meshes.error();
-    if (auto hair = hair::spawn_scene_hair(world, device, *instance); !hair) return hair.error();
+    if (auto meshes = host.add_meshes(); !meshes) return meshes.error();
+    const hair::HairKeeper keeper{
+        adding_to(host), [&](Entity hair, Entity mesh) { return host.bind_hair(hair, mesh); }};
+    if (auto hair = hair::spawn_scene_hair(world, keeper, *instance); !hair) return hair.error();
     if (!scene->animations.empty()) {
         const Entity root = world.resource<scene::SceneLibrary>().instances[*instance].root;
         world.add(root, character::AnimationPlayer{});
     }
-    return load_environment(world, device, *scene);
+    return load_environment(host, *scene);
 }
 
-Result<LoadedContent> load_file(World& world, gpu::Device& device,
-                                const std::filesystem::path& path) {
+Result<LoadedContent> load_file(ContentHost& host, const std::filesystem::path& path) {
     if (is_gltf(path)) {
         auto scene = asset::load_gltf(path);
         if (!scene) return scene.error();
         if (!is_groom(*scene)) {
-            return load_scene(world, device,
-                              std::make_shared<const asset::SceneAsset>(std::move(*scene)));
+            return load_scene(host, std::make_shared<const asset::SceneAsset>(std::move(*scene)));
         }
     }
-    auto hair = hair::spawn_hair(world, device, path, {}, kNoEntity);
+    auto hair = hair::spawn_hair(host.world(), adding_to(host), path, {}, kNoEntity);
     if (!hair) return hair.error();
-    return use_default_sky(world, device);
+    return use_default_sky(host);
 }
 
 template <class Component>
@@ -128,19 +132,19 @@ std::vector<glm::dvec3> outline_of(World& world) {
     return points;
 }
 
-Result<void> place_camera(Renderer& renderer) {
-    World& world = renderer.world();
+Result<void> place_camera(ContentHost& host) {
+    World& world = host.world();
     if (const Entity camera = first_with<scene::Camera>(world); camera != kNoEntity) {
         world.add(camera, scene::ActiveCamera{});
-        return renderer.settle();
+        return host.settle();
     }
-    if (auto settled = renderer.settle(); !settled) return settled;
+    if (auto settled = host.settle(); !settled) return settled;
     const glm::dvec2 size(world.resource<scene::ViewSettings>().size);
     const scene::CameraPose pose =
         scene::frame_points(outline_of(world), kDefaultYaw, kDefaultPitch, size.x / size.y);
     world.spawn(scene::Camera{pose.vertical_fov, pose.near_plane}, scene::local_transform(pose),
                 scene::WorldTransform{}, scene::PreviousWorldTransform{}, scene::ActiveCamera{});
-    return renderer.settle();
+    return host.settle();
 }
 
 }  // namespace
@@ -154,19 +158,20 @@ std::filesystem::path scene_folder() {
     return std::filesystem::path(VELLUS_ASSET_DIR) / "scenes";
 }
 
-Result<LoadedContent> load_content(Renderer& renderer, gpu::Device& device,
-                                   const Options& options) {
-    World& world = renderer.world();
+Result<LoadedContent> load_content(ContentHost& host, const Options& options) {
+    World& world = host.world();
     auto& step = world.resource<scene::FixedStep>();
     step.dt = options.dt;
     step.seed = options.seed;
-    renderer.resize(options.size[0], options.size[1]);
-    auto loaded = load_file(world, device, content_path(options));
+    host.resize(options.size[0], options.size[1]);
+    auto loaded = load_file(host, content_path(options));
     if (!loaded) return loaded.error();
     if (first_with<scene::Light>(world) == kNoEntity) light::spawn_sun(world, {});
     set_techniques(world, options.techniques);
-    world.resource<temporal::TemporalSettings>().enabled = !options.no_taa;
-    if (auto placed = place_camera(renderer); !placed) return placed.error();
+    if (auto* taa = world.find_resource<temporal::TemporalSettings>()) {
+        taa->enabled = !options.no_taa;
+    }
+    if (auto placed = place_camera(host); !placed) return placed.error();
     return *loaded;
 }
 

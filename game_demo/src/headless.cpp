@@ -79,7 +79,7 @@ Result<void> run_headless(gpu::Device& device, const Options& options) {
     if (auto ready = prepare_folder(options.out); !ready) return ready;
     auto renderer = Renderer::create(device, options.switches);
     if (!renderer) return renderer.error();
-    if (auto loaded = load_content(**renderer, device, options); !loaded) return loaded.error();
+    if (auto loaded = load_content(**renderer, options); !loaded) return loaded.error();
     auto run = draw_frames(**renderer, options);
     if (!run) return run.error();
     run->device = device.traits();

@@ -3,12 +3,16 @@
 #include <cstring>
 
 #include "engine/frame_graph/context.h"
+#include "modules/character/mesh_library.h"
 #include "modules/character/register.h"
 #include "modules/display/register.h"
+#include "modules/hair/binding/bind_hair.h"
 #include "modules/hair/components.h"
 #include "modules/hair/geometry/hair_frame.h"
 #include "modules/hair/register.h"
+#include "modules/hair/spawn.h"
 #include "modules/light/register.h"
+#include "modules/scene/library.h"
 #include "modules/scene/register.h"
 #include "modules/scene/view.h"
 #include "modules/temporal/register.h"
@@ -93,6 +97,23 @@ void Renderer::resize(uint32_t width, uint32_t height) {
     if (view.size == glm::uvec2(width, height)) return;
     view.size = {width, height};
     view.cut = true;
+}
+
+Result<uint32_t> Renderer::add_groom(const std::filesystem::path& path, bool upright) {
+    return hair::add_groom(world_, device_, path, upright);
+}
+
+Result<void> Renderer::bind_hair(Entity hair, Entity mesh) {
+    return hair::bind_hair(world_, device_, hair, mesh);
+}
+
+Result<void> Renderer::add_meshes() {
+    return world_.resource<character::MeshLibrary>().update(device_,
+                                                            world_.resource<scene::SceneLibrary>());
+}
+
+Result<void> Renderer::set_environment(const light::EnvironmentImage& image) {
+    return light::use_environment(world_, device_, image);
 }
 
 Result<void> Renderer::run_systems() {

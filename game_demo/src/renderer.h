@@ -9,6 +9,7 @@
 #include "engine/frame_graph/execute.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/image.h"
+#include "game_demo/src/content_host.h"
 #include "game_demo/src/stats.h"
 #include "modules/scene/render_frame.h"
 
@@ -22,19 +23,20 @@ enum class Output : uint8_t {
 };
 
 /// The modules, their world and schedule, and the executor of the frames they describe.
-class Renderer {
+class Renderer final : public ContentHost {
   public:
     static Result<std::unique_ptr<Renderer>> create(gpu::Device& device,
                                                     const graph::Switches& switches);
-    ~Renderer();
-    Renderer(const Renderer&) = delete;
-    Renderer& operator=(const Renderer&) = delete;
+    ~Renderer() override;
 
-    World& world() { return world_; }
-    /// Size of the frames from now on; starts histories anew.
-    void resize(uint32_t width, uint32_t height);
-    /// Lets the systems place everything once without drawing: bounds are known afterwards.
-    Result<void> settle();
+    World& world() override { return world_; }
+    /// Starts histories anew.
+    void resize(uint32_t width, uint32_t height) override;
+    Result<void> settle() override;
+    Result<uint32_t> add_groom(const std::filesystem::path& path, bool upright) override;
+    Result<void> bind_hair(Entity hair, Entity mesh) override;
+    Result<void> add_meshes() override;
+    Result<void> set_environment(const light::EnvironmentImage& image) override;
     /// One frame: systems, graph, device. Does not wait for the device.
     Result<void> draw(Output output);
     /// Describes what lies over the picture (panels) in every frame drawn to kPicture.

@@ -76,7 +76,7 @@ Result<OpenScene> open_scene(gpu::Device& device, const Options& options, Frameb
     auto renderer = Renderer::create(device, options.switches);
     if (!renderer) return renderer.error();
     scene.renderer = std::move(*renderer);
-    auto loaded = load_content(*scene.renderer, device, options);
+    auto loaded = load_content(*scene.renderer, options);
     if (!loaded) return loaded.error();
     if (!size.empty()) scene.renderer->resize(size.width, size.height);
     World& world = scene.renderer->world();

@@ -8,8 +8,7 @@
 #include "engine/platform/log.h"
 #include "modules/hair/binding/bind_hair.h"
 #include "modules/hair/components.h"
-#include "modules/hair/groom/groom_file.h"
-#include "modules/hair/groom/upright.h"
+#include "modules/hair/groom/load_strands.h"
 #include "modules/light/light_set.h"
 #include "modules/scene/bounds.h"
 #include "modules/scene/library.h"
@@ -17,15 +16,6 @@
 namespace vellus::hair {
 
 namespace {
-
-void log_report(const std::string& name, const GroomReport& report) {
-    const std::string text = to_text(report);
-    for (size_t start = 0; start < text.size();) {
-        const size_t end = std::min(text.find('\n', start), text.size());
-        log_info("{}: {}", name, text.substr(start, end - start));
-        start = end + 1;
-    }
-}
 
 /// The points farthest along each of a few hundred directions spread over the sphere (Fibonacci
 /// lattice); of very many points, a sample.
@@ -64,31 +54,41 @@ scene::LocalTransform local_transform(const HairExtension& look) {
             .scale = glm::vec3(look.scale)};
 }
 
+AddGroom adding_to(World& world, gpu::Device& device) {
+    return [&world, &device](const std::filesystem::path& path, bool upright) {
+        return add_groom(world, device, path, upright);
+    };
+}
+
 }  // namespace
+
+std::optional<uint32_t> find_groom(const World& world, const std::string& name) {
+    const auto& grooms = world.resource<HairLibrary>().grooms;
+    const auto known = std::ranges::find(grooms, name, &LibraryGroom::name);
+    if (known == grooms.end()) return std::nullopt;
+    return static_cast<uint32_t>(known - grooms.begin());
+}
+
+LibraryGroom describe_groom(const std::string& name, const StrandData& strands,
+                            const GroomReport& report) {
+    return {.name = name,
+            .positions = strands.positions,
+            .strand_begin = strands.strand_begin,
+            .bounds = strands.bounds,
+            .outermost = outermost_points(strands.positions),
+            .width = strands.width,
+            .has_width_column = !strands.point_width.empty(),
+            .has_colors = !strands.point_color.empty(),
+            .color = constant_color(strands),
+            .report = report};
+}
 
 Result<uint32_t> add_groom(World& world, gpu::Device& device, const std::filesystem::path& path,
                            bool upright) {
-    auto& library = world.resource<HairLibrary>();
-    const std::string name = path.string() + (upright ? "" : " (as in the file)");
-    const auto known = std::ranges::find(library.grooms, name, &LibraryGroom::name);
-    if (known != library.grooms.end()) {
-        return static_cast<uint32_t>(known - library.grooms.begin());
-    }
-    auto loaded = load_groom(path);
+    if (const auto known = find_groom(world, strands_name(path, upright))) return *known;
+    auto loaded = load_strands(path, upright);
     if (!loaded) return loaded.error();
-    log_report(path.filename().string(), loaded->report);
-    const Groom& groom = loaded->groom;
-    glm::dmat4 to_metres(1.0);
-    double metres_per_unit = 1.0;
-    if (upright) {
-        const Upright turn = upright_transform(groom);
-        log_info("{}: {}", path.filename().string(), turn.reason);
-        to_metres = turn.to_metres;
-        metres_per_unit = turn.metres_per_unit;
-    }
-    const auto width = static_cast<float>(default_width(groom, metres_per_unit));
-    const StrandData strands = prepare_strands(groom, to_metres, width);
-    return add_strands(world, device, name, strands, loaded->report);
+    return add_strands(world, device, loaded->name, loaded->strands, loaded->report);
 }
 
 Result<uint32_t> add_strands(World& world, gpu::Device& device, const std::string& name,
@@ -96,27 +96,23 @@ Result<uint32_t> add_strands(World& world, gpu::Device& device, const std::strin
     auto buffers = StrandBuffers::upload(device, strands);
     if (!buffers) return buffers.error();
     auto& library = world.resource<HairLibrary>();
-    library.grooms.push_back({.name = name,
-                              .strands = std::move(*buffers),
-                              .positions = strands.positions,
-                              .strand_begin = strands.strand_begin,
-                              .bounds = strands.bounds,
-                              .outermost = outermost_points(strands.positions),
-                              .width = strands.width,
-                              .has_width_column = !strands.point_width.empty(),
-                              .has_colors = !strands.point_color.empty(),
-                              .color = constant_color(strands),
-                              .report = report});
+    library.grooms.push_back(describe_groom(name, strands, report));
+    library.grooms.back().strands = std::move(*buffers);
     return static_cast<uint32_t>(library.grooms.size() - 1);
+}
+
+Result<Entity> spawn_hair(World& world, const AddGroom& add, const std::filesystem::path& path,
+                          const HairExtension& look, Entity parent) {
+    HairTechniques techniques;
+    if (auto set = set_techniques(techniques, look.techniques); !set) return set.error();
+    auto groom = add(path, look.upright);
+    if (!groom) return groom.error();
+    return spawn_hair(world, *groom, look, techniques, parent);
 }
 
 Result<Entity> spawn_hair(World& world, gpu::Device& device, const std::filesystem::path& path,
                           const HairExtension& look, Entity parent) {
-    HairTechniques techniques;
-    if (auto set = set_techniques(techniques, look.techniques); !set) return set.error();
-    auto groom = add_groom(world, device, path, look.upright);
-    if (!groom) return groom.error();
-    return spawn_hair(world, *groom, look, techniques, parent);
+    return spawn_hair(world, adding_to(world, device), path, look, parent);
 }
 
 Entity spawn_hair(World& world, uint32_t groom, const HairExtension& look,
@@ -129,7 +125,7 @@ Entity spawn_hair(World& world, uint32_t groom, const HairExtension& look,
     return entity;
 }
 
-Result<void> spawn_scene_hair(World& world, gpu::Device& device, uint32_t instance) {
+Result<void> spawn_scene_hair(World& world, const HairKeeper& keeper, uint32_t instance) {
     const auto& scenes = world.resource<scene::SceneLibrary>();
     const scene::SceneInstance& placed = scenes.instances[instance];
     const asset::SceneAsset& asset = scenes.asset_of(placed);
@@ -143,16 +139,21 @@ Result<void> spawn_scene_hair(World& world, gpu::Device& device, uint32_t instan
         if (!look) return look.error();
         for (const std::string& warning : look->warnings) log_warning("{}", warning);
         const std::filesystem::path groom = asset.path.parent_path() / look->groom;
-        auto spawned = spawn_hair(world, device, groom, *look, placed.nodes[node]);
+        auto spawned = spawn_hair(world, keeper.add_groom, groom, *look, placed.nodes[node]);
         if (!spawned) return spawned.error();
         if (!look->binding) continue;
         auto carrier = find_binding_node(asset, *look->binding, where);
         if (!carrier) return carrier.error();
-        if (auto bound = bind_hair(world, device, *spawned, placed.nodes[*carrier]); !bound) {
-            return bound;
-        }
+        if (auto bound = keeper.bind(*spawned, placed.nodes[*carrier]); !bound) return bound;
     }
     return {};
+}
+
+Result<void> spawn_scene_hair(World& world, gpu::Device& device, uint32_t instance) {
+    const auto bind = [&](Entity hair, Entity mesh) {
+        return bind_hair(world, device, hair, mesh);
+    };
+    return spawn_scene_hair(world, {adding_to(world, device), bind}, instance);
 }
 
 }  // namespace vellus::hair

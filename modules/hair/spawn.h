@@ -1,15 +1,25 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <optional>
 
 #include "engine/ecs/ecs.h"
 #include "engine/gpu/device.h"
+#include "modules/hair/components.h"
 #include "modules/hair/groom/groom_report.h"
 #include "modules/hair/groom/hair_extension.h"
 #include "modules/hair/groom/strand_data.h"
 #include "modules/hair/techniques.h"
 
 namespace vellus::hair {
+
+/// The groom of that name in the world's HairLibrary.
+std::optional<uint32_t> find_groom(const World& world, const std::string& name);
+
+/// All that the HairLibrary says of a groom but its buffers on the device.
+LibraryGroom describe_groom(const std::string& name, const StrandData& strands,
+                            const GroomReport& report);
 
 /// Loads a groom into the world's HairLibrary and logs its report; the same file is loaded once.
 /// `upright`: turn it upright and into metres (groom/upright.h).
@@ -20,7 +30,20 @@ Result<uint32_t> add_groom(World& world, gpu::Device& device, const std::filesys
 Result<uint32_t> add_strands(World& world, gpu::Device& device, const std::string& name,
                              const StrandData& strands, const GroomReport& report);
 
+/// Brings a groom file into the HairLibrary, on a device or not: its index there.
+using AddGroom = std::function<Result<uint32_t>(const std::filesystem::path& path, bool upright)>;
+/// Binds a hair entity to a mesh entity, as bind_hair.
+using BindHair = std::function<Result<void>(Entity hair, Entity mesh)>;
+
+/// What keeps the data that hair entities refer to.
+struct HairKeeper {
+    AddGroom add_groom;
+    BindHair bind;
+};
+
 /// An entity that wears hair: a child of `parent` (kNoEntity: a root).
+Result<Entity> spawn_hair(World& world, const AddGroom& add, const std::filesystem::path& path,
+                          const HairExtension& look, Entity parent);
 Result<Entity> spawn_hair(World& world, gpu::Device& device, const std::filesystem::path& path,
                           const HairExtension& look, Entity parent);
 
@@ -29,6 +52,7 @@ Entity spawn_hair(World& world, uint32_t groom, const HairExtension& look,
                   const HairTechniques& techniques, Entity parent);
 
 /// Hair of every node of the instance that has VELLUS_hair; grooms are relative to its file.
+Result<void> spawn_scene_hair(World& world, const HairKeeper& keeper, uint32_t instance);
 Result<void> spawn_scene_hair(World& world, gpu::Device& device, uint32_t instance);
 
 }  // namespace vellus::hair

@@ -18,22 +18,35 @@ constexpr uint32_t kSkyHeight = 512;
 
 }  // namespace
 
-Result<void> load_environment(World& world, gpu::Device& device, const EnvironmentExtension& from,
-                              const std::filesystem::path& folder) {
+Result<EnvironmentImage> read_environment(const EnvironmentExtension& from,
+                                          const std::filesystem::path& folder) {
     auto image = asset::load_image_f(folder / from.image);
     if (!image) return image.error();
-    auto environment = make_environment(device, *image, from.intensity, from.rotation);
+    return EnvironmentImage{std::move(*image), from.intensity, from.rotation,
+                            std::exp2(from.exposure)};
+}
+
+EnvironmentImage sky_environment(const Sky& sky) {
+    return {.pixels = render_sky(sky, kSkyWidth, kSkyHeight)};
+}
+
+Result<void> use_environment(World& world, gpu::Device& device, const EnvironmentImage& image) {
+    auto environment = make_environment(device, image.pixels, image.intensity, image.rotation);
     if (!environment) return environment.error();
     world.resource<Environment>() = std::move(*environment);
-    world.resource<scene::ViewSettings>().exposure = std::exp2(from.exposure);
+    if (image.exposure) world.resource<scene::ViewSettings>().exposure = *image.exposure;
     return {};
 }
 
+Result<void> load_environment(World& world, gpu::Device& device, const EnvironmentExtension& from,
+                              const std::filesystem::path& folder) {
+    auto image = read_environment(from, folder);
+    if (!image) return image.error();
+    return use_environment(world, device, *image);
+}
+
 Result<void> use_sky(World& world, gpu::Device& device, const Sky& sky) {
-    auto environment = make_environment(device, render_sky(sky, kSkyWidth, kSkyHeight), 1.0f, 0.0f);
-    if (!environment) return environment.error();
-    world.resource<Environment>() = std::move(*environment);
-    return {};
+    return use_environment(world, device, sky_environment(sky));
 }
 
 scene::LocalTransform sun_transform(const Sky& sky) {

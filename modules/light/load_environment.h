@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
+#include "engine/asset/image.h"
 #include "engine/ecs/ecs.h"
 #include "engine/gpu/device.h"
 #include "modules/light/environment_extension.h"
@@ -10,8 +12,25 @@
 
 namespace vellus::light {
 
-/// The image of a VELLUS_environment extension becomes the world's Environment; its exposure goes
-/// into ViewSettings. `folder` holds the glTF file.
+/// What surrounds a scene, not yet on any device.
+struct EnvironmentImage {
+    asset::ImageF pixels;  ///< equirectangular
+    float intensity = 1.0f;
+    float rotation = 0.0f;          ///< radians about +Y, counter-clockwise from above
+    std::optional<float> exposure;  ///< factor on the picture, where the scene gives one
+};
+
+/// The image of a VELLUS_environment extension; `folder` holds the glTF file.
+Result<EnvironmentImage> read_environment(const EnvironmentExtension& from,
+                                          const std::filesystem::path& folder);
+
+/// The default sky as an image.
+EnvironmentImage sky_environment(const Sky& sky);
+
+/// Becomes the world's Environment; its exposure goes into ViewSettings.
+Result<void> use_environment(World& world, gpu::Device& device, const EnvironmentImage& image);
+
+/// read_environment, then use_environment.
 Result<void> load_environment(World& world, gpu::Device& device, const EnvironmentExtension& from,
                               const std::filesystem::path& folder);
 

@@ -95,7 +95,8 @@ Result<Target> find_target(World& world, Entity entity) {
     return target;
 }
 
-Result<void> bind(World& world, gpu::Device& device, Entity hair, Entity mesh, const Target& target,
+/// Without a device nothing is uploaded.
+Result<void> bind(World& world, gpu::Device* device, Entity hair, Entity mesh, const Target& target,
                   const glm::dmat4& placement) {
     const uint32_t index = world.get<Hair>(hair)->groom;
     const LibraryGroom& groom = world.resource<HairLibrary>().grooms[index];
@@ -105,13 +106,17 @@ Result<void> bind(World& world, gpu::Device& device, Entity hair, Entity mesh, c
         error.where = target.name;
         return error;
     }
-    auto buffers = BoundRootBuffers::upload(device, *roots);
-    if (!buffers) return buffers.error();
+    BoundRootBuffers buffers;
+    if (device != nullptr) {
+        auto uploaded = BoundRootBuffers::upload(*device, *roots);
+        if (!uploaded) return uploaded.error();
+        buffers = *std::move(uploaded);
+    }
     log_info("{}: {} roots on {}, at most {:.3g} m off its skin", groom.name, roots->roots.size(),
              target.name, roots->farthest);
     auto& list = world.resource<HairBindings>().list;
     world.add(hair, HairBinding{.mesh = mesh, .roots = static_cast<uint32_t>(list.size())});
-    list.push_back({index, *std::move(roots), *std::move(buffers)});
+    list.push_back({index, *std::move(roots), std::move(buffers)});
     return {};
 }
 
@@ -126,9 +131,7 @@ std::string mesh_nodes(const asset::SceneAsset& scene) {
     return line.empty() ? "the scene has no node with a mesh" : "nodes with a mesh: " + line;
 }
 
-}  // namespace
-
-Result<void> bind_hair(World& world, gpu::Device& device, Entity hair, Entity mesh) {
+Result<void> bind_at_rest(World& world, gpu::Device* device, Entity hair, Entity mesh) {
     if (!world.has<Hair>(hair)) {
         return Error{"the entity has no Hair", "hair binding", "spawn it by spawn_hair"};
     }
@@ -136,6 +139,16 @@ Result<void> bind_hair(World& world, gpu::Device& device, Entity hair, Entity me
     if (!target) return target.error();
     const Placement placement(world, target->instance, target->space);
     return bind(world, device, hair, mesh, *target, placement.of(hair));
+}
+
+}  // namespace
+
+Result<void> bind_hair(World& world, gpu::Device& device, Entity hair, Entity mesh) {
+    return bind_at_rest(world, &device, hair, mesh);
+}
+
+Result<void> bind_hair(World& world, Entity hair, Entity mesh) {
+    return bind_at_rest(world, nullptr, hair, mesh);
 }
 
 Result<void> rebind_hair(World& world, gpu::Device& device, Entity hair, Entity mesh,
@@ -148,7 +161,7 @@ Result<void> rebind_hair(World& world, gpu::Device& device, Entity hair, Entity 
     if (!target) return target.error();
     const glm::dmat4 placement =
         align * world.resource<HairBindings>().list[binding->roots].roots.placement;
-    return bind(world, device, hair, mesh, *target, placement);
+    return bind(world, &device, hair, mesh, *target, placement);
 }
 
 bool unbind_hair(World& world, Entity hair) {

@@ -15,6 +15,8 @@ namespace vellus::hair {
 /// (and a NodeRef where it is skinned). Bindings stay in HairBindings. Errors name the mesh and
 /// leave `hair` as it was.
 Result<void> bind_hair(World& world, gpu::Device& device, Entity hair, Entity mesh);
+/// The same for worlds without a device: only the columns.
+Result<void> bind_hair(World& world, Entity hair, Entity mesh);
 
 /// Moves a bound groom to another mesh of the same shape, whatever its vertices, triangles,
 /// skeleton or place: the roots keep the places they had in the rest space of the old one. `align`
