@@ -78,8 +78,7 @@ MeshDraw make_draw(const MeshBuffers& mesh, const asset::SceneAsset& scene,
     const uint32_t image = material.base_color_image;
     const bool sampled = image < uploaded.images.size() && uploaded.images[image];
     draw.base_color = sampled ? uploaded.images[image].view() : library.white.view();
-    draw.pipeline = material.double_sided || mirrored ? library.pipelines.draw_two_sided
-                                                      : library.pipelines.draw;
+    draw.two_sided = material.double_sided || mirrored;
     return draw;
 }
 

@@ -24,7 +24,7 @@ struct MeshDraw {
     VkBuffer indices = VK_NULL_HANDLE;
     uint32_t index_count = 0;
     VkImageView base_color = VK_NULL_HANDLE;
-    const gpu::Pipeline* pipeline = nullptr;
+    bool two_sided = false;
     bool in_view = true;
 };
 

@@ -79,20 +79,6 @@ Result<AssetMeshes> upload_asset(gpu::Device& device, const asset::SceneAsset& s
     return result;
 }
 
-gpu::RasterInfo draw_info(bool cull_back) {
-    gpu::RasterInfo info;
-    info.vertex_shader = "character/mesh.vert.glsl";
-    info.fragment_shader = "character/mesh.frag.glsl";
-    info.bindings = {gpu::Binding::kSampledRepeat, gpu::Binding::kSampledNearest,
-                     gpu::Binding::kUniform, gpu::Binding::kUniform};
-    info.push_bytes = sizeof(MeshPush);
-    info.color_formats = {gpu::Format::kRgba16Float, gpu::Format::kRg16Float};
-    info.depth_format = gpu::Format::kD32Float;
-    info.depth = gpu::DepthMode::kTestWrite;
-    info.cull_back = cull_back;
-    return info;
-}
-
 gpu::RasterInfo shadow_info() {
     gpu::RasterInfo info;
     info.vertex_shader = "character/shadow.vert.glsl";
@@ -107,16 +93,27 @@ Result<MeshPipelines> make_pipelines(gpu::Device& device) {
     const auto skin =
         library.compute({.shader = "character/skin.comp.glsl", .push_bytes = sizeof(SkinPush)});
     if (!skin) return skin.error();
-    const auto draw = library.raster(draw_info(true));
-    if (!draw) return draw.error();
-    const auto two_sided = library.raster(draw_info(false));
-    if (!two_sided) return two_sided.error();
     const auto shadow = library.raster(shadow_info());
     if (!shadow) return shadow.error();
-    return MeshPipelines{*skin, *draw, *two_sided, *shadow};
+    return MeshPipelines{*skin, *shadow, {}};
 }
 
 }  // namespace
+
+gpu::RasterInfo draw_info(uint32_t lights, bool hair_shadows, bool cull_back) {
+    gpu::RasterInfo info;
+    info.vertex_shader = "character/mesh.vert.glsl";
+    info.fragment_shader = "character/mesh.frag.glsl";
+    info.bindings = {gpu::Binding::kSampledRepeat, gpu::Binding::kSampledNearest,
+                     gpu::Binding::kUniform, gpu::Binding::kUniform};
+    info.push_bytes = sizeof(MeshPush);
+    info.constants = {lights, hair_shadows ? 1U : 0U};
+    info.color_formats = {gpu::Format::kRgba16Float, gpu::Format::kRg16Float};
+    info.depth_format = gpu::Format::kD32Float;
+    info.depth = gpu::DepthMode::kTestWrite;
+    info.cull_back = cull_back;
+    return info;
+}
 
 Result<MeshBuffers> MeshBuffers::upload(gpu::Device& device, const asset::Primitive& primitive) {
     MeshBuffers result;

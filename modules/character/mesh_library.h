@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "engine/asset/scene_asset.h"
@@ -7,6 +8,7 @@
 #include "engine/gpu/image.h"
 #include "engine/gpu/pipeline_library.h"
 #include "engine/platform/result.h"
+#include "modules/light/light_data.h"
 
 namespace vellus::scene {
 struct SceneLibrary;
@@ -39,12 +41,21 @@ struct AssetMeshes {
     std::vector<gpu::Image> images;  ///< by asset image; empty where no material samples it
 };
 
+/// What draws meshes under one number of lights, with or without shadows of hair.
+struct DrawPipelines {
+    const gpu::Pipeline* one_sided = nullptr;  ///< back faces culled
+    const gpu::Pipeline* two_sided = nullptr;  ///< nothing culled
+};
+
 struct MeshPipelines {
     const gpu::Pipeline* skin = nullptr;
-    const gpu::Pipeline* draw = nullptr;            ///< back faces culled
-    const gpu::Pipeline* draw_two_sided = nullptr;  ///< nothing culled
     const gpu::Pipeline* shadow = nullptr;
+    /// By number of lights, then whether hair casts shadows; made when a frame first calls for one.
+    std::array<std::array<DrawPipelines, 2>, light::kMaxLights + 1> draw;
 };
+
+/// How to make one of MeshPipelines::draw.
+gpu::RasterInfo draw_info(uint32_t lights, bool hair_shadows, bool cull_back);
 
 /// Meshes on the device, by asset index of the SceneLibrary. Resource.
 struct MeshLibrary {

@@ -57,17 +57,19 @@ void record_skinning(gpu::CommandBuffer& commands, std::span<const MeshDraw> dra
 }
 
 void record_meshes(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws,
-                   VkDeviceAddress skinned, const gpu::UniformSlice& view,
-                   const gpu::UniformSlice& lights, VkImageView opaque_shadows) {
+                   const DrawPipelines& pipelines, VkDeviceAddress skinned,
+                   const gpu::UniformSlice& view, const gpu::UniformSlice& lights,
+                   VkImageView opaque_shadows) {
     const gpu::Pipeline* bound = nullptr;
     VkImageView sampled = VK_NULL_HANDLE;
     for (const MeshDraw& draw : draws) {
         if (!draw.in_view) continue;
-        if (draw.pipeline != bound) commands.bind(*draw.pipeline);
-        if (draw.pipeline != bound || draw.base_color != sampled) {
+        const gpu::Pipeline* pipeline = draw.two_sided ? pipelines.two_sided : pipelines.one_sided;
+        if (pipeline != bound) commands.bind(*pipeline);
+        if (pipeline != bound || draw.base_color != sampled) {
             commands.images({draw.base_color, opaque_shadows}, {view, lights});
         }
-        bound = draw.pipeline;
+        bound = pipeline;
         sampled = draw.base_color;
         MeshPush push = draw.mesh;
         push.vertices = skinned + draw.skin.skinned;
@@ -124,10 +126,21 @@ void describe_mesh_shadows(Res<const MeshDraws> draws, Res<const MeshLibrary> li
     });
 }
 
-void describe_meshes(Res<const MeshDraws> draws, Res<const MeshLibrary> library,
-                     Res<scene::RenderFrame> frame, Res<const MeshPasses> passes) {
+void describe_meshes(Res<const MeshDraws> draws, Res<const light::LightSet> lights,
+                     Res<MeshLibrary> library, Res<scene::RenderFrame> frame,
+                     Res<const MeshPasses> passes) {
     const auto seen = [](const MeshDraw& draw) { return draw.in_view; };
     if (!passes->skinned || std::ranges::none_of(draws->draws, seen)) return;
+    const uint32_t light_count = lights->block.count;
+    const bool hair_shadows = static_cast<bool>(frame->hair_shadows);
+    DrawPipelines& pipelines = library->pipelines.draw[light_count][hair_shadows ? 1 : 0];
+    const auto info = [&](bool cull_back) {
+        return [=] { return draw_info(light_count, hair_shadows, cull_back); };
+    };
+    if (!frame->raster(pipelines.one_sided, info(true)) ||
+        !frame->raster(pipelines.two_sided, info(false))) {
+        return;
+    }
     auto pass = frame->graph.add_pass("character/meshes", graph::PassKind::kRaster);
     frame->color = pass.color(frame->color);
     frame->velocity = pass.color(frame->velocity);
@@ -137,9 +150,9 @@ void describe_meshes(Res<const MeshDraws> draws, Res<const MeshLibrary> library,
     if (shadows) pass.read(shadows, graph::Access::kSampledFragment);
     if (frame->hair_shadows) pass.read(frame->hair_shadows, graph::Access::kGraphicsStorageRead);
     pass.execute([skinned = passes->skinned, shadows, list = std::span(draws->draws),
-                  view = frame->view_block, lights = frame->lights_block,
+                  view = frame->view_block, lights = frame->lights_block, pipelines,
                   white = library->white.view()](graph::PassContext& context) {
-        record_meshes(context.commands(), list, context.address(skinned), view, lights,
+        record_meshes(context.commands(), list, pipelines, context.address(skinned), view, lights,
                       shadows ? context.view(shadows) : white);
     });
 }

@@ -29,15 +29,17 @@ void describe_mesh_shadows(Res<const MeshDraws> draws, Res<const MeshLibrary> li
                            Res<const MeshPasses> passes);
 
 /// System, stage opaque: pass "character/meshes" draws what is in view.
-void describe_meshes(Res<const MeshDraws> draws, Res<const MeshLibrary> library,
-                     Res<scene::RenderFrame> frame, Res<const MeshPasses> passes);
+void describe_meshes(Res<const MeshDraws> draws, Res<const light::LightSet> lights,
+                     Res<MeshLibrary> library, Res<scene::RenderFrame> frame,
+                     Res<const MeshPasses> passes);
 
 /// What the passes record; `skinned` is the address of the frame's skinned vertices.
 void record_skinning(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws,
                      const MeshPipelines& pipelines, VkDeviceAddress skinned);
 void record_meshes(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws,
-                   VkDeviceAddress skinned, const gpu::UniformSlice& view,
-                   const gpu::UniformSlice& lights, VkImageView opaque_shadows);
+                   const DrawPipelines& pipelines, VkDeviceAddress skinned,
+                   const gpu::UniformSlice& view, const gpu::UniformSlice& lights,
+                   VkImageView opaque_shadows);
 void record_shadow(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws,
                    const MeshPipelines& pipelines, VkDeviceAddress skinned,
                    const glm::mat4& to_shadow);

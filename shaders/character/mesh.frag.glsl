@@ -6,7 +6,11 @@
 #include "hair/shadow/hair_shadow.glsl"
 #include "light/opaque_shadow.glsl"
 
-// Metallic-roughness surface under punctual lights with their shadows and the environment's SH.
+// Metallic-roughness surface under punctual lights with their shadows and the environment's SH. A CPU
+// device runs both sides of a branch, so what this frame does not call for is compiled out.
+layout(constant_id = 0) const uint kLightCount = 4;
+layout(constant_id = 1) const bool kHairShadows = true;
+
 layout(set = 0, binding = 0) uniform sampler2D base_color_image;
 layout(set = 0, binding = 1) uniform sampler2D opaque_shadows;
 
@@ -32,6 +36,7 @@ float shadow(PunctualLight light, vec3 n, vec3 to_light) {
     vec3 p =
         position + shadow_normal_offset(n, to_light, shadow_texel_metres(light, light.opaque_texel, distance));
     float visible = opaque_visibility(opaque_shadows, light, p);
+    if (!kHairShadows) return visible;
     return visible > 0.0 ? visible * hair_transmittance(light, p, hair_falloff, 0.0) : 0.0;
 }
 
@@ -45,8 +50,7 @@ void main() {
     vec3 n = normalize(normal) * (gl_FrontFacing ? front_flip : back_flip);
     vec3 to_view = -normalize(position);
     vec3 radiance = emissive;
-    [[unroll]] for (uint i = 0; i < kMaxLights; ++i) {
-        if (i >= lights.count) break;
+    [[unroll]] for (uint i = 0; i < kLightCount; ++i) {
         PunctualLight light = lights.light[i];
         vec3 to_light;
         vec3 irradiance = light_irradiance(light, position, to_light);
