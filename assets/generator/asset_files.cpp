@@ -4,8 +4,10 @@
 #include <span>
 
 #include "assets/generator/bust_mesh.h"
+#include "assets/generator/figure_mesh.h"
 #include "assets/generator/hair_style.h"
 #include "assets/generator/portrait.h"
+#include "assets/generator/walk_scene.h"
 #include "modules/hair/groom/groom_file.h"
 
 namespace vellus::sculpt {
@@ -39,19 +41,32 @@ Result<std::vector<AssetFile>> make_asset_files() {
         files.push_back({path, *std::move(bytes)});
         return {};
     };
-    if (auto added = add_groom("grooms/long.hair", to_groom(grow_hair(), 0.009F, "Long hair"));
-        !added) {
-        return added.error();
-    }
-    if (auto added =
-            add_groom("grooms/brows.hair", to_groom(grow_brows(), 0.011F, "Brows, lashes"));
-        !added) {
-        return added.error();
+    const auto add_text = [&](const std::string& path, const std::string& text) {
+        const auto bytes = std::as_bytes(std::span(text));
+        files.push_back({path, {bytes.begin(), bytes.end()}});
+    };
+    struct Grown {
+        const char* path;
+        hair::Groom groom;
+    };
+    const Grown grooms[] = {
+        {"grooms/long.hair", to_groom(grow_hair(), 0.009F, "Long hair")},
+        {"grooms/brows.hair", to_groom(grow_brows(), 0.011F, "Brows, lashes")},
+        {"grooms/walk.hair",
+         to_groom(grow_hair({.directions = 6'000, .points = 13, .length = 0.72}), 0.03F,
+                  "Shoulder-length hair")},
+    };
+    for (const Grown& grown : grooms) {
+        if (auto added = add_groom(grown.path, grown.groom); !added) {
+            return added.error();
+        }
     }
     Portrait portrait = make_portrait(make_bust());
-    const auto json = std::as_bytes(std::span(portrait.json));
-    files.push_back({"scenes/portrait.gltf", {json.begin(), json.end()}});
+    add_text("scenes/portrait.gltf", portrait.json);
     files.push_back({"scenes/portrait.bin", std::move(portrait.buffer)});
+    const GltfScene walk = make_walk_scene(make_figure(false));
+    add_text("scenes/walk.gltf", walk.json());
+    files.push_back({"scenes/walk.bin", walk.buffer()});
     return files;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace vellus::sculpt {
@@ -14,7 +15,8 @@ class GltfBuffer {
     enum Target { kNone = 0, kVertices = 34962, kIndices = 34963 };
 
     /// Appends values as one buffer view and one accessor; returns the accessor's index.
-    /// `component` is glTF's number of T's component type, `type` e.g. "VEC3".
+    /// `component` is glTF's number of T's component type, `type` e.g. "VEC3", which may be the
+    /// first three of T's four 16-bit components.
     template <class T>
     size_t add(std::span<const T> values, int component, const char* type, Target target,
                bool normalized = false) {
@@ -23,6 +25,9 @@ class GltfBuffer {
             {"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", values.size_bytes()}};
         if (target != kNone) {
             view["target"] = static_cast<int>(target);
+        }
+        if (target == kVertices && std::string_view(type) == "VEC3" && sizeof(T) == 8) {
+            view["byteStride"] = sizeof(T);
         }
         views_.push_back(std::move(view));
         const auto raw = std::as_bytes(values);

@@ -19,7 +19,6 @@ namespace {
 
 using glm::dvec3;
 
-constexpr int kPoints = 20;
 constexpr double kStep = 0.004;
 
 /// The space before the face that hair is combed around: an upright oval, open to the front, so
@@ -141,7 +140,7 @@ std::vector<uint32_t> pick_leaders(size_t roots, double share, uint32_t salt) {
 /// Pulls a strand towards its leader, more towards the tip.
 void gather(Strand& strand, const Strand& leader, double strength, double start) {
     for (size_t i = 0; i < strand.size(); ++i) {
-        const double t = static_cast<double>(i) / (kPoints - 1);
+        const double t = static_cast<double>(i) / static_cast<double>(strand.size() - 1);
         strand[i] = glm::mix(strand[i], leader[i], strength * smoothstep(start, 0.85, t));
     }
 }
@@ -172,7 +171,7 @@ void loosen(Strand& strand, uint32_t key) {
     const dvec3 a(spread(key, 32), 0.4 * spread(key, 33), spread(key, 34));
     const dvec3 b(spread(key, 35), 0.4 * spread(key, 36), spread(key, 37));
     for (size_t i = 0; i < strand.size(); ++i) {
-        const double t = static_cast<double>(i) / (kPoints - 1);
+        const double t = static_cast<double>(i) / static_cast<double>(strand.size() - 1);
         strand[i] += (a * wave(0.9 * t + random(key, 38)) + b * wave(2.1 * t + random(key, 39))) *
                      (reach * smoothstep(0.03, 0.6, t));
     }
@@ -180,7 +179,7 @@ void loosen(Strand& strand, uint32_t key) {
 
 void clear_of_body(Strand& strand) {
     for (size_t i = 1; i < strand.size(); ++i) {
-        const bool combed = i > 3;
+        const bool combed = 20 * i > 3 * strand.size();
         const auto field = [&](dvec3 p) {
             const double body = bust_distance(p);
             return combed ? std::min(body, face_distance(p) + 0.0056) : body;
@@ -207,17 +206,20 @@ bool is_stray(const Strand& strand) {
 
 }  // namespace
 
-std::vector<Strand> grow_hair() {
-    const std::vector<Root> roots = make_roots();
+std::vector<Strand> grow_hair(const HairCut& cut) {
+    const std::vector<Root> roots = make_roots(cut.directions);
+    // As many locks, however many strands are in one.
+    const double share = 22'000.0 / cut.directions;
     std::vector<Strand> traced(roots.size());
     parallel_ranges(roots.size(), 32, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) {
             const auto key = static_cast<uint32_t>(i);
-            traced[i] = resample(trace(roots[i], key, length_of(roots[i], key)), kPoints);
+            const double length = length_of(roots[i], key) * cut.length;
+            traced[i] = resample(trace(roots[i], key, length), cut.points);
         }
     });
-    const auto locks = nearest_leader(roots, pick_leaders(roots.size(), 0.016, 41));
-    const auto wisps = nearest_leader(roots, pick_leaders(roots.size(), 0.10, 42));
+    const auto locks = nearest_leader(roots, pick_leaders(roots.size(), 0.016 * share, 41));
+    const auto wisps = nearest_leader(roots, pick_leaders(roots.size(), 0.10 * share, 42));
     std::vector<Strand> hair(roots.size());
     parallel_ranges(roots.size(), 32, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -7,8 +8,17 @@ namespace vellus::sculpt {
 
 using Strand = std::vector<glm::dvec3>;
 
-/// Long hair with a side parting on the bust's scalp, root to tip, metres; 20 points a strand.
-std::vector<Strand> grow_hair();
+/// Long hair with a side parting.
+struct HairCut {
+    /// About two thirds of them become strands.
+    uint32_t directions = 22'000;
+    int points = 20;
+    /// Factor on the length, which is 0.3 to 0.45 m.
+    double length = 1.0;
+};
+
+/// Hair on the bust's scalp, root to tip, metres.
+std::vector<Strand> grow_hair(const HairCut& cut = {});
 
 /// Eyebrows and lashes: short strands of 6 points.
 std::vector<Strand> grow_brows();

@@ -60,19 +60,18 @@ std::optional<Root> root_along(dvec3 direction, uint32_t key) {
 
 // Roots take the directions of a Fibonacci lattice. Where the hair parts the scalp would show:
 // there a second, finer lattice adds to them.
-std::vector<Root> make_roots() {
-    constexpr uint32_t kDirections = 22'000;
+std::vector<Root> make_roots(uint32_t directions) {
     // The golden angle as a rotation, so that no trigonometry is called.
     constexpr double kCos = -0.73736887807831985597;
     constexpr double kSin = 0.67549029426152362721;
     std::vector<Root> roots;
     for (uint32_t lattice = 0; lattice < 2; ++lattice) {
-        const uint32_t count = kDirections * (1 + 2 * lattice);
+        const uint32_t count = directions * (1 + 2 * lattice);
         glm::dvec2 turn(1.0, 0.0);
         for (uint32_t i = 0; i < count; ++i) {
             turn = glm::normalize(
                 glm::dvec2(turn.x * kCos - turn.y * kSin, turn.x * kSin + turn.y * kCos));
-            const uint32_t key = lattice * kDirections + i;
+            const uint32_t key = lattice * directions + i;
             const double y = 1.0 - 2.0 * (i + 0.5) / count;
             const double r = std::sqrt(1.0 - y * y);
             const dvec3 jitter(spread(key, 1), spread(key, 2), spread(key, 3));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -15,7 +16,8 @@ struct Root {
     double from_parting;
 };
 
-/// About 15,000 roots, spread evenly below the hairline and closer together beside the parting.
-std::vector<Root> make_roots();
+/// Roots along some two thirds of `directions`, spread evenly below the hairline and closer
+/// together beside the parting.
+std::vector<Root> make_roots(uint32_t directions);
 
 }  // namespace vellus::sculpt

@@ -2,11 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdint>
-#include <map>
-
 #include "assets/generator/bust_mesh.h"
 #include "assets/generator/sdf.h"
+#include "tests/unit/assets/surface_check.h"
 
 namespace vellus::sculpt {
 namespace {
@@ -18,20 +16,8 @@ const std::vector<Part>& parts() {
 
 TEST(Bust, EveryPartIsAClosedManifoldWithoutHoles) {
     for (const Part& part : parts()) {
-        std::map<std::pair<uint32_t, uint32_t>, int> half_edges;
-        const auto& indices = part.surface.indices;
-        for (size_t i = 0; i < indices.size(); ++i) {
-            const uint32_t next = indices[i % 3 == 2 ? i - 2 : i + 1];
-            EXPECT_EQ((++half_edges[{indices[i], next}]), 1) << part.name;
-        }
-        for (const auto& [edge, count] : half_edges) {
-            EXPECT_TRUE(half_edges.contains({edge.second, edge.first})) << part.name;
-        }
-        // Euler's formula for a surface like a ball.
-        const auto euler =
-            static_cast<int64_t>(part.surface.positions.size() + indices.size() / 3) -
-            static_cast<int64_t>(half_edges.size() / 2);
-        EXPECT_EQ(euler, 2) << part.name;
+        expect_closed(part.surface, part.name);
+        EXPECT_EQ(count_pieces(part.surface), 1U) << part.name;
     }
 }
 

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "assets/generator/gltf_buffer.h"
+#include "assets/generator/part.h"
+#include "assets/generator/skeleton.h"
+
+namespace vellus::sculpt {
+
+using Json = nlohmann::ordered_json;
+
+/// Numbers of glTF nodes.
+using Node = size_t;
+constexpr Node kNoNode = static_cast<Node>(-1);
+
+/// JSON of vectors, rounded to a micrometre, and of rotations.
+Json list(glm::dvec3 v);
+Json list(glm::dquat q);
+
+/// Turns -Z to `direction` and keeps +Y up.
+glm::dquat facing(glm::dvec3 direction);
+
+/// A skeleton placed in a scene: one node per joint, in the order of the joints.
+struct Rig {
+    std::span<const Joint> joints;
+    std::vector<Node> nodes;
+};
+
+/// What a clip does to one node: a rotation or a place for each key.
+struct Track {
+    Node node;
+    std::vector<glm::dquat> rotations;
+    std::vector<glm::dvec3> translations;
+};
+
+/// A glTF scene while it is put together.
+class GltfScene {
+  public:
+    explicit GltfScene(std::string name);
+
+    Node add_node(Json node, Node parent = kNoNode);
+    /// Nodes for a skeleton below `parent`, at rest.
+    Rig add_rig(std::span<const Joint> joints, Node parent, const std::string& prefix = {});
+    /// Column data of a part, to be used by any number of meshes: its attributes and indices.
+    Json add_geometry(const SkinnedPart& part);
+    size_t add_material(const std::string& name, glm::dvec3 base_color, double roughness);
+    size_t add_mesh(const std::string& name, Json primitives);
+    /// A skin of the rig, whose joints are at rest where the model was sculpted.
+    size_t add_skin(const Rig& rig);
+    /// Linear keys at these times in seconds, increasing.
+    void add_clip(const std::string& name, std::span<const double> times,
+                  std::span<const Track> tracks, Json extras = nullptr);
+    /// Joint tracks of a clip whose keys are `pose(0)` to `pose(keys)`.
+    static std::vector<Track> tracks_of(const Rig& rig, size_t keys,
+                                        const std::function<Pose(size_t)>& pose);
+    Node add_camera(glm::dvec3 eye, glm::dvec3 target, double vertical_fov, Node parent = kNoNode);
+    Node add_sun(glm::dvec3 to_sun, glm::dvec3 color, double intensity);
+
+    /// The .gltf text and its buffer, called NAME.bin.
+    [[nodiscard]] std::string json() const;
+    [[nodiscard]] const std::vector<std::byte>& buffer() const { return buffer_.bytes(); }
+
+  private:
+    std::string name_;
+    GltfBuffer buffer_;
+    Json roots_ = Json::array();
+    Json nodes_ = Json::array();
+    Json meshes_ = Json::array();
+    Json materials_ = Json::array();
+    Json skins_ = Json::array();
+    Json clips_ = Json::array();
+    Json cameras_ = Json::array();
+    Json lights_ = Json::array();
+};
+
+/// Undoes what to_groom() does: a groom is Z up in centimetres.
+Json groom_transform();
+
+}  // namespace vellus::sculpt
