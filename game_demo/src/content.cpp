@@ -142,8 +142,7 @@ Result<void> place_camera(ContentHost& host) {
     const glm::dvec2 size(world.resource<scene::ViewSettings>().size);
     const scene::CameraPose pose =
         scene::frame_points(outline_of(world), kDefaultYaw, kDefaultPitch, size.x / size.y);
-    world.spawn(scene::Camera{pose.vertical_fov, pose.near_plane}, scene::local_transform(pose),
-                scene::WorldTransform{}, scene::PreviousWorldTransform{}, scene::ActiveCamera{});
+    scene::spawn_camera(world, pose);
     return host.settle();
 }
 

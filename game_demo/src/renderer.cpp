@@ -1,10 +1,9 @@
 #include "game_demo/src/renderer.h"
 
-#include <cstring>
-
 #include "engine/frame_graph/context.h"
 #include "modules/character/mesh_library.h"
 #include "modules/character/register.h"
+#include "modules/display/readback.h"
 #include "modules/display/register.h"
 #include "modules/hair/binding/bind_hair.h"
 #include "modules/hair/components.h"
@@ -24,23 +23,6 @@ namespace {
 using graph::Access;
 
 constexpr VkImageSubresourceLayers kColorLayer{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-
-void describe_readback(scene::RenderFrame& frame, gpu::Buffer& target) {
-    const auto imported = frame.graph.import_buffer("readback", {target.bytes()}, &target,
-                                                    Access::kNone, Access::kHostRead);
-    auto pass = frame.graph.add_pass("demo/readback", graph::PassKind::kTransfer);
-    pass.read(frame.display, Access::kTransferRead);
-    const auto written = pass.write(imported, Access::kTransferWrite, graph::Load::kDiscard);
-    pass.execute(
-        [display = frame.display, written, size = frame.size](graph::PassContext& context) {
-            const VkBufferImageCopy region{.imageSubresource = kColorLayer,
-                                           .imageExtent = {size.x, size.y, 1}};
-            vkCmdCopyImageToBuffer(context.commands().handle(), context.image(display),
-                                   VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, context.buffer(written), 1,
-                                   &region);
-        });
-    frame.graph.output(written);
-}
 
 void describe_picture(scene::RenderFrame& frame, gpu::Image& target, bool first) {
     const graph::ImageDesc desc{gpu::Format::kRgba8Unorm, frame.size.x, frame.size.y};
@@ -153,13 +135,12 @@ Result<void> Renderer::describe_output(Output output) {
     if (output == Output::kPixels) {
         if (size != readback_size_) {
             if (auto idle = executor_->wait(); !idle) return idle;
-            auto made = gpu::Buffer::create(device_, uint64_t{4} * size[0] * size[1],
-                                            gpu::MemoryKind::kReadback, "readback");
+            auto made = display::make_readback(device_, frame.size);
             if (!made) return made.error();
             readback_ = std::move(*made);
             readback_size_ = size;
         }
-        describe_readback(frame, readback_);
+        display::describe_readback(frame, readback_);
         return {};
     }
     if (overlay_) overlay_(frame);
@@ -181,10 +162,7 @@ Result<void> Renderer::wait() {
 }
 
 asset::Image Renderer::pixels() const {
-    asset::Image image{readback_size_[0], readback_size_[1], {}};
-    image.rgba.resize(size_t{4} * image.width * image.height);
-    std::memcpy(image.rgba.data(), readback_.mapped(), image.rgba.size());
-    return image;
+    return display::read_picture(readback_, {readback_size_[0], readback_size_[1]});
 }
 
 std::vector<EffectRow> Renderer::effects() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/scene/instantiate.h"
 #include "modules/scene/view.h"
 
 namespace vellus::demo {
@@ -91,10 +92,7 @@ void Viewer::take_over() {
     });
     const glm::dvec3 center = box.empty() ? glm::dvec3(0.0) : box.center();
     orbit_ = orbit_from(world_.resource<scene::ViewState>().pose, center);
-    const scene::CameraPose pose = pose_of(orbit_);
-    own_camera_ = world_.spawn(scene::Camera{pose.vertical_fov, pose.near_plane},
-                               scene::local_transform(pose), scene::WorldTransform{},
-                               scene::PreviousWorldTransform{}, scene::ActiveCamera{});
+    own_camera_ = scene::spawn_camera(world_, pose_of(orbit_));
     world_.remove<scene::ActiveCamera>(scene_camera_);
 }
 

@@ -146,4 +146,9 @@ Result<uint32_t> instantiate(World& world, const std::shared_ptr<const SceneAsse
     return index;
 }
 
+Entity spawn_camera(World& world, const CameraPose& pose) {
+    return world.spawn(Camera{pose.vertical_fov, pose.near_plane}, local_transform(pose),
+                       WorldTransform{}, PreviousWorldTransform{}, ActiveCamera{});
+}
+
 }  // namespace vellus::scene

@@ -4,6 +4,7 @@
 
 #include "engine/ecs/world.h"
 #include "engine/platform/result.h"
+#include "modules/scene/camera.h"
 #include "modules/scene/library.h"
 
 namespace vellus::scene {
@@ -16,5 +17,8 @@ uint32_t add_asset(World& world, const std::shared_ptr<const asset::SceneAsset>&
 /// range, a node with two parents, a cycle, an inverse bind matrix too few. Nothing is made then.
 Result<uint32_t> instantiate(World& world, const std::shared_ptr<const asset::SceneAsset>& asset,
                              const LocalTransform& place = {});
+
+/// A camera entity with this pose, the active one; remove ActiveCamera from any other.
+Entity spawn_camera(World& world, const CameraPose& pose);
 
 }  // namespace vellus::scene

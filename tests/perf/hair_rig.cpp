@@ -12,6 +12,7 @@
 #include "modules/light/load_environment.h"
 #include "modules/light/register.h"
 #include "modules/scene/camera.h"
+#include "modules/scene/instantiate.h"
 #include "modules/scene/register.h"
 #include "modules/scene/render_frame.h"
 #include "modules/temporal/register.h"
@@ -35,13 +36,9 @@ Result<void> light_evenly(World& world, gpu::Device& device) {
     return {};
 }
 
-void spawn_camera(World& world, const hair::LibraryGroom& groom, glm::uvec2 size) {
+scene::CameraPose framed(const hair::LibraryGroom& groom, glm::uvec2 size) {
     const std::vector<glm::dvec3> points(groom.outermost.begin(), groom.outermost.end());
-    const auto pose =
-        scene::frame_points(points, kYaw, kPitch, static_cast<double>(size.x) / size.y, kFill);
-    world.spawn(scene::local_transform(pose), scene::WorldTransform{},
-                scene::PreviousWorldTransform{}, scene::Camera{pose.vertical_fov, pose.near_plane},
-                scene::ActiveCamera{});
+    return scene::frame_points(points, kYaw, kPitch, static_cast<double>(size.x) / size.y, kFill);
 }
 
 }  // namespace
@@ -81,7 +78,7 @@ Result<void> HairRig::set_up(const HairRigOptions& options) {
     if (!groom) return groom.error();
     hair::spawn_hair(world_, *groom, look, options.techniques, kNoEntity);
     const glm::uvec2 size{options.width, options.height};
-    spawn_camera(world_, world_.resource<hair::HairLibrary>().grooms[*groom], size);
+    scene::spawn_camera(world_, framed(world_.resource<hair::HairLibrary>().grooms[*groom], size));
     world_.resource<scene::ViewSettings>().size = size;
     // The benchmark compares fixed maps, whatever the framing.
     world_.resource<light::ShadowSettings>().fit_to_picture = false;
