@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "modules/hair/cards/card_buffers.h"
 #include "modules/hair/geometry/strand_buffers.h"
 #include "modules/hair/groom/groom_report.h"
 #include "modules/hair/groom/hair_material.h"
@@ -29,6 +30,7 @@ struct HairShadow {
 struct LibraryGroom {
     std::string name;
     StrandBuffers strands;
+    CardBuffers cards;  ///< of a groom of cards; its points are those of `strands`
     /// Points and first points of strands as on the device, for binding and dynamics.
     std::vector<glm::vec3> positions;
     std::vector<uint32_t> strand_begin;

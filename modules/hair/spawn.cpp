@@ -17,10 +17,27 @@ namespace vellus::hair {
 
 namespace {
 
-/// The points farthest along each of a few hundred directions spread over the sphere (Fibonacci
-/// lattice); of very many points, a sample.
+std::optional<glm::vec3> constant_color(const StrandData& strands) {
+    if (!strands.has_color || !strands.point_color.empty()) return std::nullopt;
+    return glm::vec3(strands.color);
+}
+
+scene::LocalTransform local_transform(const HairExtension& look) {
+    return {.translation = look.translation,
+            .rotation = glm::quat(look.rotation),
+            .scale = glm::vec3(look.scale)};
+}
+
+AddGroom adding_to(World& world, gpu::Device& device) {
+    return [&world, &device](const std::filesystem::path& path, bool upright) {
+        return add_groom(world, device, path, upright);
+    };
+}
+
+}  // namespace
+
 std::vector<glm::vec3> outermost_points(const std::vector<glm::vec3>& points) {
-    constexpr size_t kDirections = 256;
+    constexpr size_t kDirections = 256;  // spread over the sphere by a Fibonacci lattice
     constexpr size_t kSample = 1'000'000;
     std::vector<glm::vec3> result(points.empty() ? 0 : kDirections);
     // Odd, or strands of an even number of points would never show their tips.
@@ -42,25 +59,6 @@ std::vector<glm::vec3> outermost_points(const std::vector<glm::vec3>& points) {
     });
     return result;
 }
-
-std::optional<glm::vec3> constant_color(const StrandData& strands) {
-    if (!strands.has_color || !strands.point_color.empty()) return std::nullopt;
-    return glm::vec3(strands.color);
-}
-
-scene::LocalTransform local_transform(const HairExtension& look) {
-    return {.translation = look.translation,
-            .rotation = glm::quat(look.rotation),
-            .scale = glm::vec3(look.scale)};
-}
-
-AddGroom adding_to(World& world, gpu::Device& device) {
-    return [&world, &device](const std::filesystem::path& path, bool upright) {
-        return add_groom(world, device, path, upright);
-    };
-}
-
-}  // namespace
 
 std::optional<uint32_t> find_groom(const World& world, const std::string& name) {
     const auto& grooms = world.resource<HairLibrary>().grooms;

@@ -17,6 +17,9 @@ namespace vellus::hair {
 /// The groom of that name in the world's HairLibrary.
 std::optional<uint32_t> find_groom(const World& world, const std::string& name);
 
+/// The points farthest along each of a few hundred directions; of very many points, a sample.
+std::vector<glm::vec3> outermost_points(const std::vector<glm::vec3>& points);
+
 /// All that the HairLibrary says of a groom but its buffers on the device.
 LibraryGroom describe_groom(const std::string& name, const StrandData& strands,
                             const GroomReport& report);

@@ -46,7 +46,7 @@ PixelRect pixels_of(const scene::Box& box, const scene::ViewState& view) {
 HairEffects plan(const Hair& hair, const LibraryGroom& groom, const HairMaterial& material,
                  const HairTechniques& chosen, bool visible, const light::LightBlock& lights) {
     HairEffects effects{.groom = hair.groom, .techniques = chosen};
-    const bool any_strands = groom.strands.segment_count > 0;
+    const bool any_strands = groom.strands.segment_count > 0 || groom.cards;
     if (!any_strands || material.alpha <= 0.0f || !visible) {
         effects.drawn = false;
         effects.opacity = !any_strands             ? EffectReason::kNoStrands
@@ -91,6 +91,7 @@ HairDraw describe_draw(const LibraryGroom& groom, const glm::dmat4& world,
     const bool given = width.root > 0.0f;
     const bool from_column = !given && groom.has_width_column;
     return {.strands = &groom.strands,
+            .cards = groom.cards ? &groom.cards : nullptr,
             .positions = groom.strands.positions.address(),
             .world = world,
             .width = from_column ? 0.0f : (given ? width.root : groom.width),
@@ -99,6 +100,7 @@ HairDraw describe_draw(const LibraryGroom& groom, const glm::dmat4& world,
             .scale = given ? 1.0f : static_cast<float>(std::cbrt(volume)),
             .alpha = material.alpha,
             .opacity = techniques.opacity,
+            .primitives = groom.cards ? groom.cards.triangle_count : groom.strands.segment_count,
             .shadowed = techniques.shadow == ShadowTechnique::kPcfExponential,
             .environment_lit = techniques.environment == EnvironmentTechnique::kSh,
             .scattering = techniques.scattering,
@@ -117,6 +119,7 @@ HairInstance describe_instance(const LibraryGroom& groom, const HairMaterial& ma
     instance.segment_point = strands.segment_point.address();
     instance.segment_strand = strands.segment_strand.address();
     instance.strand_seed = strands.strand_seed.address();
+    instance.cards = groom.cards ? groom.cards.set.address() : 0;
     instance.flags = has_colors ? kHasColors : 0u;
     const bool one_color = groom.color && material.use_groom_colors;
     instance.base_color = one_color ? *groom.color : material.base_color;
@@ -184,7 +187,8 @@ void gather_hair(HairQuery hair, Res<const HairLibrary> library, Res<const HairB
     frame->casters.clear();
     frame->effects.clear();
     frame->deforms.clear();
-    frame->points = frame->segments = 0;
+    frame->projected = frame->card_vertices = frame->visibility = {};
+    frame->points = frame->card_points = frame->segments = 0;
     const scene::View& v = view->view;
     const glm::dvec3 camera = view->pose.position;
     hair.each([&](Entity entity, const Hair& item, const scene::WorldTransform& world,
@@ -219,8 +223,9 @@ void gather_hair(HairQuery hair, Res<const HairLibrary> library, Res<const HairB
         draw.first_id = frame->segments;
         draw.rect = pixels_of(bounds.box, *view);
         instance.first_point = draw.first_point = frame->points;
-        frame->points += groom.strands.point_count;
-        frame->segments += groom.strands.segment_count;
+        draw.first_card_point = frame->card_points;
+        (draw.cards ? frame->card_points : frame->points) += groom.strands.point_count;
+        frame->segments += draw.primitives;
         frame->instances.push_back(instance);
         frame->draws.push_back(draw);
     });

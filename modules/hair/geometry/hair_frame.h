@@ -30,6 +30,7 @@ struct HairInstance {
     VkDeviceAddress segment_point;
     VkDeviceAddress segment_strand;
     VkDeviceAddress strand_seed;
+    VkDeviceAddress cards;
     uint32_t first_point;
     uint32_t flags;
     glm::vec3 base_color;
@@ -43,7 +44,7 @@ struct HairInstance {
     float shadow_falloff;
     float shadow_first;
 };
-static_assert(sizeof(HairInstance) == 312);
+static_assert(sizeof(HairInstance) == 320);
 
 /// A rectangle of pixels, `end` not included.
 struct PixelRect {
@@ -70,8 +71,9 @@ struct HairDeform {
 /// What passes need to rasterise one groom.
 struct HairDraw {
     const StrandBuffers* strands = nullptr;
-    VkDeviceAddress positions = 0;   ///< packed vec3; `world` takes them to the world
-    uint32_t deform = kNotDeformed;  ///< into HairFrame::deforms
+    const CardBuffers* cards = nullptr;  ///< null: strands
+    VkDeviceAddress positions = 0;       ///< packed vec3; `world` takes them to the world
+    uint32_t deform = kNotDeformed;      ///< into HairFrame::deforms
     glm::dmat4 world{1.0};
     glm::mat4 to_clip{1.0f};  ///< jittered
     float width = 0.0f;       ///< metres in the world; 0: from the column
@@ -81,6 +83,8 @@ struct HairDraw {
     OpacityTechnique opacity = OpacityTechnique::kDither;
     uint32_t first_id = 0;
     uint32_t first_point = 0;
+    uint32_t first_card_point = 0;
+    uint32_t primitives = 0;  ///< segments, or triangles of cards
     bool shadowed = false;
     bool environment_lit = false;
     ScatteringTechnique scattering = ScatteringTechnique::kKaris;
@@ -121,12 +125,14 @@ struct HairFrame {
     std::vector<HairEffects> effects;     ///< all grooms
     std::vector<HairDeform> deforms;      ///< drawn or casting grooms with points of their own
     uint32_t points = 0;
-    uint32_t segments = 0;
+    uint32_t card_points = 0;
+    uint32_t segments = 0;                           ///< and triangles of cards
     std::vector<gpu::UniformSlice> instance_blocks;  ///< uploads of `instances`
     std::vector<gpu::UniformSlice> fibre_blocks;     ///< their fibres, where a technique reads one
     graph::BufferHandle deformed;                    ///< points of `deforms`; invalid without any
     graph::BufferHandle projected;                   ///< of this frame's graph, as the next
-    graph::BufferHandle visibility;                  ///< closest segment of each pixel
+    graph::BufferHandle card_vertices;
+    graph::BufferHandle visibility;  ///< closest segment of each pixel
 };
 
 /// Hair of its own: the box of an entity with a mesh belongs to the character module, that of bound

@@ -1,5 +1,6 @@
 #include "modules/hair/geometry/hair_passes.h"
 
+#include <algorithm>
 #include <span>
 
 #include "engine/frame_graph/context.h"
@@ -102,7 +103,8 @@ void describe_hair_projection(Res<HairFrame> hair, Res<HairPipelines> pipelines,
                                                draw.optics, instance.roughness, instance.shift))
                                          : block);
     }
-    if (!frame->compute(pipelines->project, [] {
+    describe_card_projection(*hair, pipelines->cards, *frame);
+    if (hair->points == 0 || !frame->compute(pipelines->project, [] {
             return compute_info("hair/geometry/project.comp.glsl", sizeof(ProjectPush));
         })) {
         return;
@@ -119,6 +121,7 @@ void describe_hair_projection(Res<HairFrame> hair, Res<HairPipelines> pipelines,
         gpu::CommandBuffer& commands = context.commands();
         commands.bind(*pipeline);
         for (const HairDraw& draw : draws) {
+            if (draw.cards) continue;
             ProjectPush push = project_push(draw, draw.to_clip, viewport, pixels_per_metre);
             push.projected = context.address(target) + draw.first_point * kProjectedPointBytes;
             commands.push(push);
@@ -129,12 +132,16 @@ void describe_hair_projection(Res<HairFrame> hair, Res<HairPipelines> pipelines,
 
 namespace {
 
-/// Points of all casters as one light sees them.
+bool any_strands(const std::vector<HairDraw>& draws) {
+    return std::ranges::any_of(draws, [](const HairDraw& draw) { return draw.cards == nullptr; });
+}
+
+/// Points of all strands that cast, as one light sees them.
 graph::BufferHandle describe_light_projection(const HairFrame& hair, const light::LightSet& lights,
                                               uint32_t index, const HairPipelines& pipelines,
                                               scene::RenderFrame& frame) {
     uint64_t points = 0;
-    for (const HairDraw& draw : hair.casters) points += draw.strands->point_count;
+    for (const HairDraw& draw : hair.casters) points += draw.cards ? 0 : draw.strands->point_count;
     auto projected =
         frame.graph.create_buffer("hair light projected", {points * kProjectedPointBytes});
     auto pass = frame.graph.add_pass("hair/shadow_project", PassKind::kCompute);
@@ -149,6 +156,7 @@ graph::BufferHandle describe_light_projection(const HairFrame& hair, const light
         commands.bind(*pipeline);
         VkDeviceAddress target = context.address(projected);
         for (const HairDraw& draw : casters) {
+            if (draw.cards) continue;
             ProjectPush push =
                 project_push(draw, glm::mat4(to_hair * draw.world), glm::vec2(size), pixels);
             push.projected = target;
@@ -166,12 +174,15 @@ void describe_hair_shadows(Res<const HairFrame> hair, Res<const light::LightSet>
                            Res<HairShadowMaps> maps, Res<HairPipelines> pipelines,
                            Res<scene::RenderFrame> frame) {
     if (hair->casters.empty() || lights->block.tiles == 0) return;
-    if (!frame->compute(
-            pipelines->project,
-            [] { return compute_info("hair/geometry/project.comp.glsl", sizeof(ProjectPush)); }) ||
-        !frame->compute(pipelines->shadow_depth, [] {
-            return compute_info("hair/shadow/shadow_depth.comp.glsl", sizeof(ShadowDepthPush));
-        })) {
+    const bool any = any_strands(hair->casters);
+    const auto project = [] {
+        return compute_info("hair/geometry/project.comp.glsl", sizeof(ProjectPush));
+    };
+    const auto depth = [] {
+        return compute_info("hair/shadow/shadow_depth.comp.glsl", sizeof(ShadowDepthPush));
+    };
+    if (any && (!frame->compute(pipelines->project, project) ||
+                !frame->compute(pipelines->shadow_depth, depth))) {
         return;
     }
     graph::BufferHandle map = frame->graph.import_buffer("hair shadows", {maps->depth.bytes()},
@@ -184,6 +195,8 @@ void describe_hair_shadows(Res<const HairFrame> hair, Res<const light::LightSet>
     for (uint32_t index = 0; index < lights->block.count; ++index) {
         const light::PunctualLight& light = lights->block.light[index];
         if (light.shadow_tile == light::kNoShadow) continue;
+        map = describe_card_shadow(*hair, *lights, index, pipelines->cards, *frame, map);
+        if (!any) continue;
         const auto projected = describe_light_projection(*hair, *lights, index, *pipelines, *frame);
         auto pass = frame->graph.add_pass("hair/shadow_depth", PassKind::kCompute);
         pass.read(projected, Access::kStorageRead);
@@ -195,6 +208,7 @@ void describe_hair_shadows(Res<const HairFrame> hair, Res<const light::LightSet>
             commands.bind(*pipeline);
             VkDeviceAddress points = context.address(projected);
             for (const HairDraw& draw : casters) {
+                if (draw.cards) continue;
                 const StrandBuffers& strands = *draw.strands;
                 commands.push(ShadowDepthPush{.projected = points,
                                               .segment_point = strands.segment_point.address(),
@@ -224,6 +238,8 @@ graph::BufferHandle describe_visibility(const HairFrame& hair, HairPipelines& pi
     clear.execute([target](PassContext& context) {
         vkCmdFillBuffer(context.commands().handle(), context.buffer(target), 0, VK_WHOLE_SIZE, 0);
     });
+    target = describe_card_visibility(hair, pipelines.cards, frame, target);
+    if (hair.points == 0) return target;
     auto pass = frame.graph.add_pass("hair/visibility", PassKind::kCompute);
     pass.read(hair.projected, Access::kStorageRead);
     target = pass.write(target, Access::kStorageReadWrite);
@@ -233,6 +249,7 @@ graph::BufferHandle describe_visibility(const HairFrame& hair, HairPipelines& pi
                   still = pipelines.visibility_still](PassContext& context) {
         gpu::CommandBuffer& commands = context.commands();
         for (const HairDraw& draw : draws) {
+            if (draw.cards) continue;
             const StrandBuffers& strands = *draw.strands;
             commands.bind(draw.opacity == OpacityTechnique::kDither ? *moving : *still);
             commands.push(VisibilityPush{
@@ -259,7 +276,8 @@ ShadeConstants shade_constants(const HairDraw& draw, const light::LightBlock& li
             lights.opaque_casters > 0 ? 1u : 0u,
             draw.deform != kNotDeformed ? 1u : 0u,
             static_cast<uint32_t>(draw.scattering),
-            static_cast<uint32_t>(draw.multiple)};
+            static_cast<uint32_t>(draw.multiple),
+            draw.cards ? 1u : 0u};
 }
 
 bool make_pipelines(const HairFrame& hair, const light::LightBlock& lights,
@@ -267,10 +285,11 @@ bool make_pipelines(const HairFrame& hair, const light::LightBlock& lights,
     bool ready = true;
     for (const HairDraw& draw : hair.draws) {
         const bool moving = draw.opacity == OpacityTechnique::kDither;
-        ready &= frame.compute(moving ? pipelines.visibility : pipelines.visibility_still, [&] {
-            return compute_info("hair/geometry/visibility.comp.glsl", sizeof(VisibilityPush), {},
-                                {moving ? 0u : 1u});
-        });
+        ready &= draw.cards ||
+                 frame.compute(moving ? pipelines.visibility : pipelines.visibility_still, [&] {
+                     return compute_info("hair/geometry/visibility.comp.glsl",
+                                         sizeof(VisibilityPush), {}, {moving ? 0u : 1u});
+                 });
         const ShadeConstants constants = shade_constants(draw, lights);
         ready &= frame.compute(pipelines.shade[constants], [&] {
             using enum gpu::Binding;
@@ -287,13 +306,14 @@ bool make_pipelines(const HairFrame& hair, const light::LightBlock& lights,
 
 void describe_hair(Res<HairFrame> hair, Res<const light::LightSet> lights,
                    Res<HairPipelines> pipelines, Res<scene::RenderFrame> frame) {
-    if (hair->draws.empty() || !hair->projected) return;
+    if (hair->draws.empty() || (!hair->projected && !hair->card_vertices)) return;
     if (!make_pipelines(*hair, lights->block, *pipelines, *frame)) return;
     const auto visibility = hair->visibility = describe_visibility(*hair, *pipelines, *frame);
 
     auto pass = frame->graph.add_pass("hair/shade", PassKind::kCompute);
     pass.read(visibility, Access::kStorageRead);
-    pass.read(hair->projected, Access::kStorageRead);
+    if (hair->points > 0) pass.read(hair->projected, Access::kStorageRead);
+    if (hair->card_points > 0) pass.read(hair->card_vertices, Access::kStorageRead);
     if (hair->deformed) pass.read(hair->deformed, Access::kStorageRead);
     if (lights->block.tiles > 0 && !hair->casters.empty()) {
         pass.read(frame->hair_shadows, Access::kStorageRead);
@@ -305,7 +325,7 @@ void describe_hair(Res<HairFrame> hair, Res<const light::LightSet> lights,
     pass.execute([hair = &*hair, pipelines = &*pipelines, block = &lights->block,
                   view_block = frame->view_block, lights_block = frame->lights_block,
                   width = static_cast<int32_t>(frame->size.x), visibility,
-                  projected = hair->projected, depth = frame->depth,
+                  projected = hair->projected, vertices = hair->card_vertices, depth = frame->depth,
                   shadows = frame->opaque_shadows, color = frame->color,
                   velocity = frame->velocity](PassContext& context) {
         gpu::CommandBuffer& commands = context.commands();
@@ -317,9 +337,12 @@ void describe_hair(Res<HairFrame> hair, Res<const light::LightSet> lights,
                  context.view(velocity)},
                 {view_block, lights_block, hair->instance_blocks[i], hair->fibre_blocks[i]});
             commands.push(ShadePush{.visibility = context.address(visibility),
-                                    .projected = context.address(projected),
+                                    .projected = draw.cards
+                                                     ? context.address(vertices) +
+                                                           draw.first_card_point * kCardVertexBytes
+                                                     : context.address(projected),
                                     .first_id = draw.first_id,
-                                    .segment_count = draw.strands->segment_count,
+                                    .segment_count = draw.primitives,
                                     .rect = draw.rect,
                                     .width = width});
             const glm::ivec2 groups = (draw.rect.end - draw.rect.first + 7) / 8;

@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 
+#include "modules/hair/cards/card_passes.h"
 #include "modules/hair/geometry/hair_frame.h"
 #include "modules/hair/geometry/strand_raster.h"
 #include "modules/scene/render_frame.h"
@@ -10,7 +11,7 @@
 namespace vellus::hair {
 
 /// Specialization constants 0, 1, ... of shade.comp.glsl; see there.
-using ShadeConstants = std::array<uint32_t, 7>;
+using ShadeConstants = std::array<uint32_t, 8>;
 
 /// Pipelines of the hair passes, made when first needed. Resource.
 struct HairPipelines {
@@ -18,6 +19,7 @@ struct HairPipelines {
     const gpu::Pipeline* visibility = nullptr;
     const gpu::Pipeline* visibility_still = nullptr;
     const gpu::Pipeline* shadow_depth = nullptr;
+    CardPipelines cards;
     std::map<ShadeConstants, const gpu::Pipeline*> shade;
 };
 

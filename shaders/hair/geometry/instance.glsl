@@ -17,6 +17,7 @@ struct HairInstance {
     Uints segment_point;
     Uints segment_strand;
     Uints strand_seed;
+    uint64_t cards;      // address of a CardSet (hair/cards/cards.glsl); 0 for strands
     uint first_point;    // of its points among all projected ones
     uint flags;
     vec3 base_color;
@@ -37,7 +38,8 @@ struct HairSample {
     vec3 tangent;   // groom space, root to tip, not unit
     float parameter;
     float along;  // from the segment's first point to its second, in [0, 1]
-    uint strand;
+    uint seed;    // of its strand
+    vec3 tint;    // the groom's own colour; white without
 };
 
 /// Where pixel centre `pixel` meets the segment: positions perspective-correct, tangents smooth along
@@ -63,7 +65,12 @@ HairSample hair_sample(HairInstance hair, ProjectedPoints projected, uint segmen
     if (dot(result.tangent, result.tangent) < 1.0e-6) result.tangent = direction;
     result.parameter = mix(u0, u1, t);
     result.along = t;
-    result.strand = hair.segment_strand.at[segment];
+    result.seed = hair.strand_seed.at[hair.segment_strand.at[segment]];
+    result.tint = vec3(1.0);
+    if ((hair.flags & kHairHasColors) != 0u) {
+        uvec2 halves = hair.colors.at[i];
+        result.tint = vec3(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y).x);
+    }
     return result;
 }
 
@@ -74,15 +81,12 @@ vec3 hair_previous_position(HairInstance hair, HairSample at, uint segment) {
 }
 
 /// Base colour there: gradient from root to tip, the groom's own colours, brightness by strand.
-vec3 hair_color(HairInstance hair, HairSample at, uint segment) {
+vec3 hair_color(HairInstance hair, HairSample at) {
     float along = clamp((at.parameter - hair.gradient_start) / max(1.0 - hair.gradient_start, 1.0e-3),
                         0.0, 1.0);
     vec3 color = mix(hair.base_color, hair.tip_color, along);
-    if ((hair.flags & kHairHasColors) != 0u) {
-        uvec2 halves = hair.colors.at[hair.segment_point.at[segment]];
-        color *= vec3(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y).x);
-    }
-    float random = unit_float(hash_uint(hair.strand_seed.at[at.strand] ^ 0x5bd1e995u));
+    if ((hair.flags & kHairHasColors) != 0u) color *= at.tint;
+    float random = unit_float(hash_uint(at.seed ^ 0x5bd1e995u));
     return clamp(color * (1.0 + hair.color_variation * (2.0 * random - 1.0)), 0.0, 1.0);
 }
 

@@ -1,4 +1,6 @@
 // Columns of a groom on the device, by address. GLSL only.
+#ifndef VELLUS_HAIR_STRANDS_GLSL
+#define VELLUS_HAIR_STRANDS_GLSL
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -19,3 +21,5 @@ float point_parameter(Uints parameters, uint i) {
     uint pair = parameters.at[i >> 1];
     return float((i & 1u) == 0u ? pair & 0xffffu : pair >> 16) * (1.0 / 65535.0);
 }
+
+#endif

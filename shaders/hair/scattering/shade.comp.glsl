@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "common/view.glsl"
+#include "hair/cards/sample.glsl"
 #include "hair/geometry/instance.glsl"
 #include "hair/scattering/scattering.glsl"
 #include "hair/shadow/hair_shadow.glsl"
@@ -18,10 +19,11 @@ layout(constant_id = 3) const bool kOpaqueCasters = true;
 layout(constant_id = 5) const int kScattering = 0;
 layout(constant_id = 6) const int kMultiple = 1;
 layout(constant_id = 4) const bool kDeformed = false;  // its points move by themselves
+layout(constant_id = 7) const bool kCards = false;
 
 layout(push_constant, scalar) uniform Push {
     LongWords visibility;
-    ProjectedPoints projected;
+    ProjectedPoints projected;  // CardVertices where the groom is of cards
     uint first_id;
     uint segment_count;
     ivec2 first_pixel;  // of the rectangle that holds the groom
@@ -75,15 +77,26 @@ void main() {
     if (segment >= segment_count) return;
     if (texelFetch(opaque_depth, pixel, 0).x >= uintBitsToFloat(uint(key >> 32))) return;
 
-    HairSample at = hair_sample(hair, projected, segment, vec2(pixel) + 0.5);
-    HairSurface surface = HairSurface(hair_color(hair, at, segment), hair.specular, hair.roughness,
+    vec2 center = vec2(pixel) + 0.5;
+    HairSample at;
+    vec3 previous;
+    if (kCards) {
+        CardSet cards = Cards(hair.cards).set;
+        CardVertices vertices = CardVertices(uint64_t(projected));
+        at = card_sample(cards, vertices, segment, center);
+        previous = at.position;
+        if (kDeformed) previous += card_previous_offset(hair, cards, vertices, segment, center);
+    } else {
+        at = hair_sample(hair, projected, segment, center);
+        previous = kDeformed ? hair_previous_position(hair, at, segment) : at.position;
+    }
+    HairSurface surface = HairSurface(hair_color(hair, at), hair.specular, hair.roughness,
                                       hair.scatter, hair.shift);
     vec3 position = (hair.to_relative * vec4(at.position, 1.0)).xyz;
     vec3 tangent = normalize(mat3(hair.to_relative) * at.tangent);
     vec3 radiance = shade(surface, position, tangent);
     imageStore(color, pixel, vec4(min(radiance, vec3(60000.0)), 1.0));
 
-    vec3 previous = kDeformed ? hair_previous_position(hair, at, segment) : at.position;
     vec4 before = hair.previous_to_clip * vec4(previous, 1.0);
     vec2 moved = view.cut != 0u || before.w <= 0.0
                      ? vec2(0.0)

@@ -1,0 +1,221 @@
+#include "modules/hair/cards/build_cards.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/platform/clock.h"
+#include "engine/platform/jobs.h"
+#include "modules/hair/cards/bake.h"
+#include "modules/hair/cards/cluster.h"
+#include "modules/hair/cards/pack.h"
+
+namespace vellus::hair {
+
+namespace {
+
+/// Strands of cluster c: strands[begin[c]] to strands[begin[c + 1] - 1].
+struct Members {
+    std::vector<uint32_t> strands;
+    std::vector<uint32_t> begin{0};
+
+    [[nodiscard]] size_t count() const { return begin.size() - 1; }
+    [[nodiscard]] std::span<const uint32_t> of(size_t cluster) const {
+        return std::span(strands).subspan(begin[cluster], begin[cluster + 1] - begin[cluster]);
+    }
+};
+
+Members group(const std::vector<uint32_t>& labels) {
+    Members members;
+    const uint32_t count = *std::ranges::max_element(labels) + 1;
+    members.begin.assign(count + 1, 0);
+    for (const uint32_t label : labels) ++members.begin[label + 1];
+    for (uint32_t c = 0; c < count; ++c) members.begin[c + 1] += members.begin[c];
+    std::vector<uint32_t> next(members.begin.begin(), members.begin.end() - 1);
+    members.strands.resize(labels.size());
+    for (uint32_t i = 0; i < labels.size(); ++i) members.strands[next[labels[i]]++] = i;
+    return members;
+}
+
+/// A rectangle's side: `metres` at this density, a multiple of the alignment.
+uint32_t side(double metres, double density) {
+    const double steps = std::ceil(metres * density / kCardAlignment - 1e-9);
+    return static_cast<uint32_t>(std::clamp(steps, 1.0, 1024.0)) * kCardAlignment;
+}
+
+glm::uvec2 card_size(const Ribbon& ribbon, double density, double along_ratio) {
+    float half_width = 0.0f;
+    for (const RibbonRow& row : ribbon.rows) half_width = std::max(half_width, row.half_width);
+    return {side(2.0 * half_width, density), side(ribbon.length(), density * along_ratio)};
+}
+
+uint64_t texels_of(const std::vector<Ribbon>& ribbons, double density, double along_ratio) {
+    uint64_t texels = 0;
+    for (const Ribbon& ribbon : ribbons) {
+        const glm::uvec2 size = card_size(ribbon, density, along_ratio);
+        texels += uint64_t{size.x} * size.y;
+    }
+    return texels;
+}
+
+/// The density asked for, or the highest below it that keeps the atlas in its limit. The smallest
+/// rectangles set a floor.
+double choose_density(const std::vector<Ribbon>& ribbons, const StrandData& strands,
+                      const CardBuildOptions& options) {
+    double density = options.texels_per_metre > 0.0f
+                         ? options.texels_per_metre
+                         : 1.0 / std::max(static_cast<double>(strands.width), kThinnestStrand);
+    while (density > 1.0 && texels_of(ribbons, density, options.along_ratio) > options.max_texels) {
+        density *= 0.97;
+    }
+    return density;
+}
+
+void append_ribbon(const Ribbon& ribbon, glm::uvec2 corner, glm::uvec2 size, CardGroom& cards) {
+    const auto first = static_cast<uint32_t>(cards.points.size());
+    const glm::vec2 atlas(cards.atlas.width, cards.atlas.height);
+    const glm::vec2 low = glm::vec2(corner) / atlas;
+    const glm::vec2 high = glm::vec2(corner + size) / atlas;
+    for (const RibbonRow& row : ribbon.rows) {
+        const glm::vec3 across = row.across * row.half_width;
+        cards.points.push_back(row.center - across);
+        cards.points.push_back(row.center + across);
+        cards.points.push_back(row.center + row.toward * row.half_thickness);
+        const float fraction = row.distance / ribbon.length();
+        const float v = glm::mix(low.y, high.y, fraction);
+        cards.uvs.emplace_back(low.x, v);
+        cards.uvs.emplace_back(high.x, v);
+        cards.uvs.emplace_back(0.5f * (low.x + high.x), v);
+        const auto parameter = static_cast<uint16_t>(std::lround(65535.0f * fraction));
+        cards.parameters.insert(cards.parameters.end(), 3, parameter);
+    }
+    for (uint32_t row = 0; row + 1 < ribbon.rows.size(); ++row) {
+        const uint32_t a = first + 3 * row;
+        cards.triangles.emplace_back(a, a + 3, a + 1);
+        cards.triangles.emplace_back(a + 1, a + 3, a + 4);
+    }
+    cards.card_begin.push_back(static_cast<uint32_t>(cards.points.size()));
+}
+
+template <class T>
+void copy_rows(const std::vector<T>& from, uint32_t width, std::vector<T>& to, uint32_t to_width,
+               glm::uvec2 corner) {
+    for (size_t row = 0; row * width < from.size(); ++row) {
+        std::copy_n(from.begin() + static_cast<ptrdiff_t>(row * width), width,
+                    to.begin() + static_cast<ptrdiff_t>((corner.y + row) * to_width + corner.x));
+    }
+}
+
+void place(const CardAtlas& card, glm::uvec2 corner, CardAtlas& atlas) {
+    copy_rows(card.opacity, card.width, atlas.opacity, atlas.width, corner);
+    copy_rows(card.depth, card.width, atlas.depth, atlas.width, corner);
+    copy_rows(card.parameter, card.width, atlas.parameter, atlas.width, corner);
+    copy_rows(card.tangent, card.width, atlas.tangent, atlas.width, corner);
+    copy_rows(card.strand, card.width, atlas.strand, atlas.width, corner);
+    copy_rows(card.color, card.width, atlas.color, atlas.width, corner);
+}
+
+void clear(glm::uvec2 size, bool colored, CardAtlas& atlas) {
+    atlas.width = size.x;
+    atlas.height = size.y;
+    atlas.opacity.assign(atlas.texels(), 0);
+    atlas.depth.assign(atlas.texels(), 128);
+    atlas.parameter.assign(atlas.texels(), 0);
+    atlas.tangent.assign(atlas.texels(), glm::u8vec3(128, 255, 128));
+    atlas.strand.assign(atlas.texels(), 0);
+    if (colored) atlas.color.assign(atlas.texels(), glm::u8vec3(255));
+}
+
+Result<void> check(const StrandData& strands, const CardBuildOptions& options) {
+    const auto outside = [](const char* name, double value, const char* range) {
+        return Error{fmt::format("{} is {}", name, value), "cards", fmt::format("give {}", range)};
+    };
+    if (strands.strand_count() == 0) {
+        return Error{"the groom has no strands", "cards", "build cards from a groom with strands"};
+    }
+    if (options.cards < 1 || options.cards > 65536) {
+        return outside("count", options.cards, "1 to 65536");
+    }
+    if (!(options.texels_per_metre >= 0.0f && options.texels_per_metre <= 1e6f)) {
+        return outside("texels per metre", options.texels_per_metre, "0 to 1e6");
+    }
+    if (!(options.along_ratio >= 0.01f && options.along_ratio <= 1.0f)) {
+        return outside("along ratio", options.along_ratio, "0.01 to 1");
+    }
+    if (options.max_texels < 256 || options.max_texels > 1U << 27U) {
+        return outside("max texels", options.max_texels, "256 to 134217728");
+    }
+    if (options.samples < 1 || options.samples > 16) {
+        return outside("samples", options.samples, "1 to 16");
+    }
+    if (options.max_rows < 2 || options.max_rows > 64) {
+        return outside("max rows", options.max_rows, "2 to 64");
+    }
+    if (!(options.tolerance > 0.0f)) {
+        return outside("tolerance", options.tolerance, "a number above 0");
+    }
+    return {};
+}
+
+void bake_all(const StrandData& strands, const Members& members, const std::vector<Ribbon>& ribbons,
+              const std::vector<glm::uvec2>& sizes, const CardBuildOptions& options,
+              CardGroom& cards) {
+    const Packing packing = pack_shelves(sizes);
+    clear(packing.size, !strands.point_color.empty(), cards.atlas);
+    // Cards own disjoint texels, so no core waits for another.
+    parallel_ranges(ribbons.size(), 1, [&](size_t first, size_t end) {
+        for (size_t i = first; i < end; ++i) {
+            const BakeSettings settings{sizes[i], options.samples, options.tip_scale};
+            place(bake_card(strands, members.of(i), ribbons[i], settings), packing.corners[i],
+                  cards.atlas);
+        }
+    });
+    for (size_t i = 0; i < ribbons.size(); ++i) {
+        append_ribbon(ribbons[i], packing.corners[i], sizes[i], cards);
+    }
+}
+
+}  // namespace
+
+std::string to_text(const CardReport& report) {
+    return fmt::format(
+        "{} strands -> {} cards, {} triangles, atlas {} x {} ({:.0f} texels per metre across), "
+        "{:.1f} MiB; clustered in {:.2f} s, fitted in {:.2f} s, baked in {:.2f} s",
+        report.strands, report.cards, report.triangles, report.atlas_size.x, report.atlas_size.y,
+        report.texels_per_metre, static_cast<double>(report.bytes) / (1U << 20U),
+        report.cluster_seconds, report.fit_seconds, report.bake_seconds);
+}
+
+Result<CardBuild> build_cards(const StrandData& strands, const CardBuildOptions& options) {
+    if (auto checked = check(strands, options); !checked) return checked.error();
+    CardBuild build;
+    build.cards.ribbons = true;
+    const double start = wall_seconds();
+    const Members members = group(cluster_strands(strands, options.cards));
+    const double clustered = wall_seconds();
+    std::vector<Ribbon> ribbons(members.count());
+    const RibbonLimits limits{options.max_rows, options.tolerance, options.tip_scale};
+    parallel_ranges(ribbons.size(), 1, [&](size_t first, size_t end) {
+        for (size_t i = first; i < end; ++i) {
+            ribbons[i] = fit_ribbon(strands, members.of(i), limits);
+        }
+    });
+    const double fitted = wall_seconds();
+    const double density = choose_density(ribbons, strands, options);
+    std::vector<glm::uvec2> sizes;
+    for (const Ribbon& ribbon : ribbons) {
+        sizes.push_back(card_size(ribbon, density, options.along_ratio));
+    }
+    bake_all(strands, members, ribbons, sizes, options, build.cards);
+    build.report = {.strands = strands.strand_count(),
+                    .cards = build.cards.card_count(),
+                    .triangles = build.cards.triangles.size(),
+                    .atlas_size = {build.cards.atlas.width, build.cards.atlas.height},
+                    .texels_per_metre = static_cast<float>(density),
+                    .cluster_seconds = clustered - start,
+                    .fit_seconds = fitted - clustered,
+                    .bake_seconds = wall_seconds() - fitted,
+                    .bytes = build.cards.bytes()};
+    return build;
+}
+
+}  // namespace vellus::hair

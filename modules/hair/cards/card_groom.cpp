@@ -1,0 +1,38 @@
+#include "modules/hair/cards/card_groom.h"
+
+namespace vellus::hair {
+
+namespace {
+
+template <class T>
+uint64_t column_bytes(const std::vector<T>& column) {
+    return column.size() * sizeof(T);
+}
+
+}  // namespace
+
+uint64_t CardGroom::bytes() const {
+    return column_bytes(points) + column_bytes(uvs) + column_bytes(triangles) +
+           column_bytes(card_begin) + column_bytes(parameters) + column_bytes(frames) +
+           column_bytes(atlas.opacity) + column_bytes(atlas.depth) + column_bytes(atlas.parameter) +
+           column_bytes(atlas.tangent) + column_bytes(atlas.strand) + column_bytes(atlas.color);
+}
+
+Bounds bounds_of(const CardGroom& cards) {
+    Bounds box;
+    const auto reach = glm::vec3(cards.depth_range);
+    for (size_t i = 0; i < cards.points.size(); ++i) {
+        box.add(cards.points[i] - reach);
+        box.add(cards.points[i] + reach);
+        if (!cards.ribbons || i % 3 != 2) continue;
+        // A ribbon's tube may turn any of its two half axes to any side.
+        const glm::vec3 middle = 0.5f * (cards.points[i - 2] + cards.points[i - 1]);
+        const float radius = glm::max(glm::distance(middle, cards.points[i]),
+                                      glm::distance(middle, cards.points[i - 1]));
+        box.add(middle - glm::vec3(radius));
+        box.add(middle + glm::vec3(radius));
+    }
+    return box;
+}
+
+}  // namespace vellus::hair

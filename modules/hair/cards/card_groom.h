@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/type_precision.hpp>
+#include <vector>
+
+#include "modules/hair/groom/groom.h"
+
+namespace vellus::hair {
+
+/// What cards show, a value per texel, row by row from the top left.
+struct CardAtlas {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    /// Share of the texel that strands cover, 255 all.
+    std::vector<uint8_t> opacity;
+    /// How far before the card's middle the strand lies, 128 on it, +-127 half its thickness.
+    std::vector<uint8_t> depth;
+    /// Arc length over strand length, 0 at the root to 255 at the tip.
+    std::vector<uint8_t> parameter;
+    /// Unit tangent root to tip, 128 + 127 (across, along, out of the card).
+    std::vector<glm::u8vec3> tangent;
+    /// Index of the strand in its groom, modulo 65536: seeds colour and dither.
+    std::vector<uint16_t> strand;
+    /// Colour of the strand, sRGB; empty where the groom has none of its own.
+    std::vector<glm::u8vec3> color;
+
+    [[nodiscard]] size_t texels() const { return size_t{width} * height; }
+};
+
+/// Hair as textured cards, in columns, in metres, Y up. Every vertex is a plain point, so whatever
+/// moves points (a node, a skin, guides) moves cards.
+///
+/// Ribbons (built from strands) have three points a row: left edge, right edge, and the point half
+/// a thickness before the middle; they turn with the eye as an elliptic tube would, so their volume
+/// shows from every side. Other meshes (made by artists) have one point a vertex and stay as they
+/// are.
+struct CardGroom {
+    bool ribbons = false;
+    std::vector<glm::vec3> points;
+    /// In the atlas, (0, 0) its top left corner; one per point.
+    std::vector<glm::vec2> uvs;
+    /// Points of each triangle; the third point of a ribbon's row is in none.
+    std::vector<glm::uvec3> triangles;
+    /// Card c has the points [card_begin[c], card_begin[c + 1]).
+    std::vector<uint32_t> card_begin{0};
+    /// Fraction of the card's length, 0 at the root to 65535 at the tip; one per point.
+    std::vector<uint16_t> parameters;
+    /// Points whose differences (y - x) and (w - z) lead along the card (to the tip) and across it;
+    /// one per point, empty for ribbons.
+    std::vector<glm::uvec4> frames;
+    /// Metres that full depth lies before the card; ribbons have their third point instead.
+    float depth_range = 0.0f;
+    CardAtlas atlas;
+
+    [[nodiscard]] size_t card_count() const { return card_begin.size() - 1; }
+    /// Of columns and atlas in memory.
+    [[nodiscard]] uint64_t bytes() const;
+};
+
+Bounds bounds_of(const CardGroom& cards);
+
+/// Signed byte codes of depth and tangents: exact at 0 and +-1.
+inline uint8_t encode_signed(float value) {
+    return static_cast<uint8_t>(glm::round(glm::clamp(value, -1.0f, 1.0f) * 127.0f) + 128.0f);
+}
+inline float decode_signed(uint8_t code) {
+    return glm::max((static_cast<float>(code) - 128.0f) / 127.0f, -1.0f);
+}
+
+}  // namespace vellus::hair

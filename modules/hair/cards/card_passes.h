@@ -1,0 +1,34 @@
+#pragma once
+
+#include "modules/hair/geometry/hair_frame.h"
+#include "modules/scene/render_frame.h"
+
+namespace vellus::hair {
+
+/// Pipelines of the card passes, made when first needed.
+struct CardPipelines {
+    const gpu::Pipeline* project = nullptr;
+    const gpu::Pipeline* visibility = nullptr;
+    const gpu::Pipeline* visibility_still = nullptr;
+    const gpu::Pipeline* shadow_depth = nullptr;
+};
+
+/// Bytes of a card's vertex as one view sees it (CardVertex of shaders/hair/cards/cards.glsl).
+constexpr uint64_t kCardVertexBytes = 80;
+
+// Each of these adds no pass where no cards are drawn, and returns the buffer it was given.
+
+/// Pass "hair/cards_project": all vertices as the camera sees them, into HairFrame::card_vertices.
+void describe_card_projection(HairFrame& hair, CardPipelines& pipelines, scene::RenderFrame& frame);
+
+/// Pass "hair/cards_visibility": cards into the strands' visibility buffer.
+graph::BufferHandle describe_card_visibility(const HairFrame& hair, CardPipelines& pipelines,
+                                             scene::RenderFrame& frame, graph::BufferHandle target);
+
+/// Passes "hair/cards_shadow_project" and "hair/cards_shadow_depth": cards into the map of light
+/// `index`.
+graph::BufferHandle describe_card_shadow(const HairFrame& hair, const light::LightSet& lights,
+                                         uint32_t index, CardPipelines& pipelines,
+                                         scene::RenderFrame& frame, graph::BufferHandle map);
+
+}  // namespace vellus::hair

@@ -1,0 +1,113 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "hair/cards/cards.glsl"
+
+// Each vertex of a card groom as one view or light sees it.
+//
+// A ribbon stands for a tube of strands with an elliptic cross-section. Its drawn edges are the points of
+// the ellipse where the line of sight touches it, so its silhouette is the tube's from every side: seen
+// from its front the card lies flat in its own plane, seen from its edge it is as wide as it is thick.
+// The conjugate half axis, along the line of sight, carries the atlas's depth.
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+    mat4 to_clip;
+    vec4 eye;  // groom space: w 1 a position, w 0 a direction
+    Cards cards;
+    Vec3s points;
+    CardVertices target;
+    vec2 viewport;
+};
+
+CardSet set;
+
+const float kLeastHalfWidth = 0.5;  // pixels: nothing falls between the samples
+
+vec3 direction_to_eye(vec3 p) { return normalize(eye.xyz - eye.w * p); }
+
+/// Pixels, depth and 1/w (negative where not visible).
+vec4 to_screen(vec3 p) {
+    vec4 clip = to_clip * vec4(p, 1.0);
+    bool visible = clip.w > 0.0 && clip.z <= clip.w;
+    float inverse_w = visible ? 1.0 / clip.w : 0.0;
+    return vec4((clip.xy * inverse_w * 0.5 + 0.5) * viewport, clip.z * inverse_w,
+                visible ? inverse_w : -1.0);
+}
+
+/// Depth gained by a step of this many groom units towards the eye.
+float depth_step(vec3 p, vec3 to_eye, float units, float depth) {
+    vec4 clip = to_clip * vec4(p + to_eye * units, 1.0);
+    return clip.w > 0.0 ? clip.z / clip.w - depth : 0.0;
+}
+
+void write_vertex(uint i, vec3 p, vec3 to_eye, vec3 toward, vec3 along, vec3 across, float alpha,
+                  float density) {
+    vec4 screen = to_screen(p);
+    CardVertex vertex;
+    vertex.screen = vec4(screen.xyz, depth_step(p, to_eye, dot(toward, to_eye), screen.z));
+    vertex.position = vec4(p, screen.w);
+    vertex.toward = vec4(toward, alpha);
+    vertex.along = vec4(along, point_parameter(set.parameters, i));
+    vertex.across = vec4(across, density);
+    target.at[i] = vertex;
+}
+
+vec3 row_center(uint row) {
+    return 0.5 * (points.at[3u * row] + points.at[3u * row + 1u]);
+}
+
+vec3 unit_or(vec3 v, vec3 other) {
+    float squared = dot(v, v);
+    return squared > 1.0e-20 ? v * inversesqrt(squared) : other;
+}
+
+void ribbon_row(uint row) {
+    uint first = 3u * row;
+    float parameter = point_parameter(set.parameters, first);
+    vec3 center = row_center(row);
+    vec3 along = unit_or(row_center(parameter < 1.0 ? row + 1u : row) -
+                             row_center(parameter > 0.0 ? row - 1u : row),
+                         vec3(0.0, 1.0, 0.0));
+    vec3 side = 0.5 * (points.at[first + 1u] - points.at[first]);
+    vec3 front = points.at[first + 2u] - center;
+    float a = length(side), b = length(front);
+    vec3 x = side / max(a, 1.0e-12), n = front / max(b, 1.0e-12);
+
+    vec3 to_eye = direction_to_eye(center);
+    vec3 s = unit_or(cross(along, to_eye), x);
+    float sx = dot(s, x), sn = dot(s, n);
+    float h = sqrt(a * a * sx * sx + b * b * sn * sn);
+    float inverse_h = 1.0 / max(h, 1.0e-12);
+    vec3 drawn = (a * a * sx * x + b * b * sn * n) * inverse_h;
+    vec3 toward = (a * b * inverse_h) * (sx * n - sn * x);
+
+    vec4 middle = to_screen(center), edge = to_screen(center + drawn);
+    float pixels = distance(middle.xy, edge.xy);
+    float widen = min(middle.w, edge.w) > 0.0 ? max(1.0, kLeastHalfWidth / max(pixels, 1.0e-6)) : 1.0;
+    drawn *= widen;
+    float alpha = 1.0 / widen;
+    float density = a * inverse_h;
+    write_vertex(first, center - drawn, to_eye, toward, along, x, alpha, density);
+    write_vertex(first + 1u, center + drawn, to_eye, toward, along, x, alpha, density);
+}
+
+void mesh_vertex(uint i) {
+    vec3 p = points.at[i];
+    uvec4 frame = set.frames.at[i];
+    vec3 along = unit_or(points.at[frame.y] - points.at[frame.x], vec3(0.0, 1.0, 0.0));
+    vec3 across = points.at[frame.w] - points.at[frame.z];
+    across = unit_or(across - along * dot(across, along), vec3(1.0, 0.0, 0.0));
+    vec3 to_eye = direction_to_eye(p);
+    vec3 normal = cross(across, along);
+    vec3 toward = normal * (dot(normal, to_eye) < 0.0 ? -set.depth_range : set.depth_range);
+    write_vertex(i, p, to_eye, toward, along, across, 1.0, 1.0);
+}
+
+void main() {
+    set = cards.set;
+    uint i = gl_GlobalInvocationID.x;
+    if ((set.flags & kCardsRibbons) != 0u) {
+        if (3u * i < set.point_count) ribbon_row(i);
+    } else if (i < set.point_count) {
+        mesh_vertex(i);
+    }
+}

@@ -1,0 +1,43 @@
+// What shading needs of the card under a pixel; the counterpart of hair_sample. GLSL only.
+#ifndef VELLUS_HAIR_CARD_SAMPLE_GLSL
+#define VELLUS_HAIR_CARD_SAMPLE_GLSL
+#include "hair/cards/cards.glsl"
+#include "hair/geometry/instance.glsl"
+
+vec3 card_color(uint srgb) {
+    vec3 c = vec3(srgb & 0xffu, (srgb >> 8) & 0xffu, (srgb >> 16) & 0xffu) * (1.0 / 255.0);
+    return mix(c * (1.0 / 12.92), pow((c + 0.055) * (1.0 / 1.055), vec3(2.4)),
+               greaterThan(c, vec3(0.04045)));
+}
+
+HairSample card_sample(CardSet set, CardVertices vertices, uint index, vec2 pixel) {
+    CardTriangle triangle = card_triangle(set, vertices, index);
+    vec3 weights = card_weights(triangle, card_screen_weights(triangle, pixel));
+    vec3 position = vec3(0.0), toward = vec3(0.0), along = vec3(0.0), across = vec3(0.0);
+    vec2 uv = vec2(0.0);
+    float parameter = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        CardVertex vertex = vertices.at[triangle.points[i]];
+        position += weights[i] * vertex.position.xyz;
+        toward += weights[i] * vertex.toward.xyz;
+        along += weights[i] * vertex.along.xyz;
+        across += weights[i] * vertex.across.xyz;
+        parameter += weights[i] * vertex.along.w;
+        uv += weights[i] * set.uvs.at[triangle.points[i]];
+    }
+    uint texel = card_texel(set, uv, triangle.level);
+    uint shape = set.shape.at[texel], strand = set.strand.at[texel];
+    vec3 in_card = vec3(card_signed(strand), card_signed(strand >> 8), card_signed(strand >> 16));
+
+    HairSample result;
+    result.position = position + card_depth(shape) * toward;
+    result.tangent = in_card.x * across + in_card.y * along + in_card.z * cross(across, along);
+    if (dot(result.tangent, result.tangent) < 1.0e-6) result.tangent = along;
+    result.parameter = (set.flags & kCardsParameters) != 0u ? float(strand >> 24) * (1.0 / 255.0)
+                                                            : parameter;
+    result.seed = card_seed(shape);
+    result.tint = (set.flags & kCardsColors) != 0u ? card_color(set.color.at[texel]) : vec3(1.0);
+    return result;
+}
+
+#endif

@@ -1,0 +1,34 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "hair/cards/cards.glsl"
+#include "hair/opacity/dither.glsl"
+
+// Cards into the strands' shadow map of a light: float bits of reversed depth, with the strands' still
+// dither.
+layout(local_size_x = 16) in;
+layout(push_constant, scalar) uniform Push {
+    Cards cards;
+    CardVertices vertices;
+    Words target;
+    ivec2 size;
+    float alpha_scale;
+    uint padding;
+};
+
+void fragment(ivec2 texel, float depth, float alpha, uint seed) {
+    uint index = uint(texel.y * size.x + texel.x);
+    uint bits = floatBitsToUint(max(depth, 0.0));
+    if (target.at[index] >= bits) return;
+    if (!dither_keeps(alpha * alpha_scale, dither_threshold_still(dither_strand(seed), uvec2(texel)))) {
+        return;
+    }
+    atomicMax(target.at[index], bits);
+}
+
+#include "hair/cards/raster.glsl"
+
+void main() {
+    CardSet set = cards.set;
+    walk_card_triangle(set, vertices, gl_WorkGroupID.x, gl_LocalInvocationID.x, gl_WorkGroupSize.x,
+                       size);
+}

@@ -1,0 +1,128 @@
+#include <numbers>
+
+#include "engine/platform/clock.h"
+#include "tests/perf/bench.h"
+#include "tests/support/card_views.h"
+
+// Cards beside the strands they were built from, from eight sides: what a viewer would notice.
+namespace vellus::bench {
+
+namespace {
+
+using test::CardComparison;
+using test::CardPicture;
+using test::CardViews;
+
+constexpr int kSides = 8;
+
+struct Options {
+    std::string groom = "assets/grooms/long.hair";
+    std::string device;
+    std::string pictures;
+    uint32_t size = 384;
+    int frames = 16;
+    double distance = 1.0;
+    hair::CardBuildOptions build;
+};
+
+/// The two pictures side by side.
+asset::Image beside(const asset::Image& left, const asset::Image& right) {
+    asset::Image both{.width = left.width + right.width, .height = left.height, .rgba = {}};
+    for (uint32_t y = 0; y < left.height; ++y) {
+        for (const asset::Image* image : {&left, &right}) {
+            const auto row = image->rgba.begin() + ptrdiff_t{4} * y * image->width;
+            both.rgba.insert(both.rgba.end(), row, row + ptrdiff_t{4} * image->width);
+        }
+    }
+    return both;
+}
+
+struct Pass {
+    double strands_ms = 0.0;
+    double cards_ms = 0.0;
+};
+
+Result<int> compare_sides(gpu::Device& device, const Options& options) {
+    auto strands = test::load_upright_strands(options.groom);
+    if (!strands) return strands.error();
+    auto built = hair::build_cards(*strands, options.build);
+    if (!built) return built.error();
+    fmt::print("{}\n", hair::to_text(built->report));
+    auto views = CardViews::create(device, glm::uvec2(options.size));
+    if (!views) return views.error();
+    World& world = (*views)->world();
+    auto strand_groom = hair::add_strands(world, device, "strands", *strands, {});
+    if (!strand_groom) return strand_groom.error();
+    auto card_groom = hair::add_cards(world, device, "cards", built->cards);
+    if (!card_groom) return card_groom.error();
+    auto& library = world.resource<hair::HairLibrary>();
+    const auto outermost = library.grooms[*strand_groom].outermost;
+    fmt::print("on the device: strands {:.1f} MiB, cards {:.1f} MiB\n",
+               static_cast<double>(library.grooms[*strand_groom].strands.bytes()) / (1U << 20U),
+               static_cast<double>(library.grooms[*card_groom].strands.bytes() +
+                                   library.grooms[*card_groom].cards.bytes()) /
+                   (1U << 20U));
+    fmt::print("{:>5} {:>21} {:>7} {:>21} {:>7} {:>8} {:>11} {:>15}\n", "side", "mean luminance",
+               "error", "silhouette px", "error", "coverage", "bald blocks", "CPU ms a frame");
+    for (int side = 0; side < kSides; ++side) {
+        const double yaw = side * 2.0 * std::numbers::pi / kSides;
+        CardPicture pictures[2];
+        double milliseconds[2] = {};
+        for (int k = 0; k < 2; ++k) {
+            (*views)->show(k == 0 ? *strand_groom : *card_groom);
+            const double start = process_cpu_seconds();
+            auto picture = (*views)->draw(outermost, yaw, options.distance, options.frames);
+            if (!picture) return picture.error();
+            milliseconds[k] = (process_cpu_seconds() - start) * 1e3 / options.frames;
+            pictures[k] = std::move(*picture);
+        }
+        const CardComparison c = test::compare(pictures[0], pictures[1]);
+        fmt::print(
+            "{:>5} {:>10.4f} {:>10.4f} {:>+6.1f}% {:>10.0f} {:>10.0f} {:>+6.1f}% {:>+7.1f}% "
+            "{:>5} / {:>3} {:>7.1f} {:>7.1f}\n",
+            side, c.luminance[0], c.luminance[1], 100.0 * c.luminance_error(), c.silhouette[0],
+            c.silhouette[1], 100.0 * c.silhouette_error(), 100.0 * c.coverage_error(),
+            c.bald_blocks, c.full_blocks, milliseconds[0], milliseconds[1]);
+        if (options.pictures.empty()) continue;
+        const auto exposure = static_cast<float>(0.35 / c.luminance[0]);
+        auto saved = asset::save_png(
+            fmt::format("{}/side_{}.png", options.pictures, side),
+            beside(test::to_image(pictures[0], exposure), test::to_image(pictures[1], exposure)));
+        if (!saved) return saved.error();
+    }
+    return 0;
+}
+
+int run_cards(const Options& options) {
+    auto device = gpu::Device::create({.name = options.device});
+    if (!device) {
+        fmt::print(stderr, "error: {}\n", device.error().message());
+        return 1;
+    }
+    auto done = compare_sides(**device, options);
+    if (!done) fmt::print(stderr, "error: {}\n", done.error().message());
+    return done ? *done : 1;
+}
+
+const Registration kCards(
+    {"cards", "cards beside the strands they were built from, from eight sides",
+     [](CLI::App& app) -> std::function<int()> {
+         auto options = std::make_shared<Options>();
+         app.add_option("--groom", options->groom, "groom file");
+         app.add_option("--device", options->device, "part of its name");
+         app.add_option("--pictures", options->pictures, "folder for pictures: strands, cards");
+         app.add_option("--size", options->size, "pixels")->check(CLI::Range(16, 4096));
+         app.add_option("--frames", options->frames, "frames a picture is the mean of")
+             ->check(CLI::Range(1, 1024));
+         app.add_option("--distance", options->distance, "1 fills the picture")
+             ->check(CLI::Range(1.0, 100.0));
+         app.add_option("--cards", options->build.cards, "most cards to build");
+         app.add_option("--density", options->build.texels_per_metre, "texels per metre across");
+         app.add_option("--along", options->build.along_ratio, "texels along for each across");
+         app.add_option("--max-texels", options->build.max_texels, "of the atlas");
+         return [options] { return run_cards(*options); };
+     }});
+
+}  // namespace
+
+}  // namespace vellus::bench
