@@ -1,4 +1,6 @@
+#include <map>
 #include <numbers>
+#include <string>
 
 #include "engine/platform/clock.h"
 #include "tests/perf/bench.h"
@@ -37,10 +39,16 @@ asset::Image beside(const asset::Image& left, const asset::Image& right) {
     return both;
 }
 
-struct Pass {
-    double strands_ms = 0.0;
-    double cards_ms = 0.0;
-};
+/// Device times of the hair passes of the last frame.
+void print_passes(const char* title, graph::Executor& executor) {
+    std::map<std::string, double> times;
+    for (const graph::PassReport& pass : executor.report().passes) {
+        if (pass.name.starts_with("hair/")) times[std::string(pass.name)] += pass.gpu_ms;
+    }
+    fmt::print("{}:", title);
+    for (const auto& [name, time] : times) fmt::print(" {} {:.1f} ms", name.substr(5), time);
+    fmt::print("\n");
+}
 
 Result<int> compare_sides(gpu::Device& device, const Options& options) {
     auto strands = test::load_upright_strands(options.groom);
@@ -75,6 +83,9 @@ Result<int> compare_sides(gpu::Device& device, const Options& options) {
             if (!picture) return picture.error();
             milliseconds[k] = (process_cpu_seconds() - start) * 1e3 / options.frames;
             pictures[k] = std::move(*picture);
+            if (side + 1 == kSides) {
+                print_passes(k == 0 ? "strands" : "cards", (*views)->executor());
+            }
         }
         const CardComparison c = test::compare(pictures[0], pictures[1]);
         fmt::print(
@@ -119,6 +130,8 @@ const Registration kCards(
          app.add_option("--cards", options->build.cards, "most cards to build");
          app.add_option("--density", options->build.texels_per_metre, "texels per metre across");
          app.add_option("--along", options->build.along_ratio, "texels along for each across");
+         app.add_option("--tolerance", options->build.tolerance, "metres a card may cut a bend");
+         app.add_option("--rows", options->build.max_rows, "most rows of a card");
          app.add_option("--max-texels", options->build.max_texels, "of the atlas");
          return [options] { return run_cards(*options); };
      }});

@@ -95,10 +95,11 @@ AtlasLevels make_levels(const CardAtlas& atlas) {
     levels.color.resize(atlas.color.size());
     for (size_t i = 0; i < atlas.texels(); ++i) {
         levels.shape[i] = uint32_t{atlas.opacity[i]} | uint32_t{atlas.depth[i]} << 8U |
-                          uint32_t{atlas.strand[i]} << 16U;
+                          uint32_t{atlas.strand.empty() ? uint16_t{0} : atlas.strand[i]} << 16U;
         const glm::u8vec3 tangent = atlas.tangent[i];
+        const uint32_t parameter = atlas.parameter.empty() ? 0 : atlas.parameter[i];
         levels.strand[i] = uint32_t{tangent.x} | uint32_t{tangent.y} << 8U |
-                           uint32_t{tangent.z} << 16U | uint32_t{atlas.parameter[i]} << 24U;
+                           uint32_t{tangent.z} << 16U | parameter << 24U;
         if (!atlas.color.empty()) {
             const glm::u8vec3 color = atlas.color[i];
             levels.color[i] =

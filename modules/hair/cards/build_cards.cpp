@@ -6,6 +6,7 @@
 #include "engine/platform/clock.h"
 #include "engine/platform/jobs.h"
 #include "modules/hair/cards/bake.h"
+#include "modules/hair/cards/card_columns.h"
 #include "modules/hair/cards/cluster.h"
 #include "modules/hair/cards/pack.h"
 
@@ -85,15 +86,12 @@ void append_ribbon(const Ribbon& ribbon, glm::uvec2 corner, glm::uvec2 size, Car
         cards.uvs.emplace_back(low.x, v);
         cards.uvs.emplace_back(high.x, v);
         cards.uvs.emplace_back(0.5f * (low.x + high.x), v);
-        const auto parameter = static_cast<uint16_t>(std::lround(65535.0f * fraction));
-        cards.parameters.insert(cards.parameters.end(), 3, parameter);
     }
     for (uint32_t row = 0; row + 1 < ribbon.rows.size(); ++row) {
         const uint32_t a = first + 3 * row;
         cards.triangles.emplace_back(a, a + 3, a + 1);
         cards.triangles.emplace_back(a + 1, a + 3, a + 4);
     }
-    cards.card_begin.push_back(static_cast<uint32_t>(cards.points.size()));
 }
 
 template <class T>
@@ -172,6 +170,7 @@ void bake_all(const StrandData& strands, const Members& members, const std::vect
     for (size_t i = 0; i < ribbons.size(); ++i) {
         append_ribbon(ribbons[i], packing.corners[i], sizes[i], cards);
     }
+    derive_columns(cards);
 }
 
 }  // namespace

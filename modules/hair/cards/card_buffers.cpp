@@ -1,6 +1,6 @@
 #include "modules/hair/cards/card_buffers.h"
 
-#include <array>
+#include <algorithm>
 
 #include "modules/hair/cards/atlas_levels.h"
 
@@ -8,7 +8,7 @@ namespace vellus::hair {
 
 namespace {
 
-enum CardFlags : uint32_t { kRibbons = 1, kColors = 2, kParameters = 4 };
+enum CardFlags : uint32_t { kRibbons = 1, kColors = 2, kParameters = 4, kApart = 8 };
 
 /// Mirrors CardSet of shaders/hair/cards/cards.glsl.
 struct CardSet {
@@ -36,6 +36,17 @@ Result<void> upload_column(gpu::Device& device, const std::vector<T>& column, co
     return {};
 }
 
+/// Each triangle's points and its card.
+std::vector<glm::uvec4> name_cards(const CardGroom& cards) {
+    std::vector<glm::uvec4> named;
+    named.reserve(cards.triangles.size());
+    for (const glm::uvec3& t : cards.triangles) {
+        const auto after = std::ranges::upper_bound(cards.card_begin, t.x);
+        named.emplace_back(t, static_cast<uint32_t>(after - cards.card_begin.begin() - 1));
+    }
+    return named;
+}
+
 }  // namespace
 
 Result<CardBuffers> CardBuffers::upload(gpu::Device& device, const CardGroom& cards,
@@ -44,7 +55,7 @@ Result<CardBuffers> CardBuffers::upload(gpu::Device& device, const CardGroom& ca
     const AtlasLevels levels = make_levels(cards.atlas);
     const Result<void> steps[] = {
         upload_column(device, cards.uvs, "card uvs", buffers.uvs),
-        upload_column(device, cards.triangles, "card triangles", buffers.triangles),
+        upload_column(device, name_cards(cards), "card triangles", buffers.triangles),
         upload_column(device, cards.frames, "card frames", buffers.frames),
         upload_column(device, levels.shape, "card shapes", buffers.shape),
         upload_column(device, levels.strand, "card strands", buffers.strand),
@@ -55,20 +66,22 @@ Result<CardBuffers> CardBuffers::upload(gpu::Device& device, const CardGroom& ca
     }
     buffers.point_count = static_cast<uint32_t>(cards.points.size());
     buffers.triangle_count = static_cast<uint32_t>(cards.triangles.size());
+    buffers.card_count = static_cast<uint32_t>(cards.card_count());
     buffers.ribbons = cards.ribbons;
-    const CardSet set{.uvs = buffers.uvs.address(),
-                      .triangles = buffers.triangles.address(),
-                      .parameters = parameters.address(),
-                      .frames = buffers.frames.address(),
-                      .shape = buffers.shape.address(),
-                      .strand = buffers.strand.address(),
-                      .color = buffers.color.address(),
-                      .size = {cards.atlas.width, cards.atlas.height},
-                      .flags = (cards.ribbons ? kRibbons : 0U) |
-                               (cards.atlas.color.empty() ? 0U : kColors) | kParameters,
-                      .depth_range = cards.depth_range,
-                      .point_count = buffers.point_count,
-                      .triangle_count = buffers.triangle_count};
+    const CardSet set{
+        .uvs = buffers.uvs.address(),
+        .triangles = buffers.triangles.address(),
+        .parameters = parameters.address(),
+        .frames = buffers.frames.address(),
+        .shape = buffers.shape.address(),
+        .strand = buffers.strand.address(),
+        .color = buffers.color.address(),
+        .size = {cards.atlas.width, cards.atlas.height},
+        .flags = (cards.ribbons ? kRibbons : 0U) | (cards.atlas.color.empty() ? 0U : kColors) |
+                 (cards.atlas.parameter.empty() ? 0U : kParameters) | (cards.ribbons ? 0U : kApart),
+        .depth_range = cards.depth_range,
+        .point_count = buffers.point_count,
+        .triangle_count = buffers.triangle_count};
     auto uploaded = gpu::Buffer::upload_span(device, std::span(&set, 1), "card set");
     if (!uploaded) return uploaded.error();
     buffers.set = std::move(*uploaded);

@@ -18,6 +18,7 @@ struct CardBuffers {
     gpu::Buffer set;  ///< CardSet of shaders/hair/cards/cards.glsl
     uint32_t point_count = 0;
     uint32_t triangle_count = 0;
+    uint32_t card_count = 0;
     bool ribbons = false;
 
     /// `parameters` is where upload_card_points put them. Errors name the column that did not fit.

@@ -17,11 +17,12 @@ struct CardAtlas {
     std::vector<uint8_t> opacity;
     /// How far before the card's middle the strand lies, 128 on it, +-127 half its thickness.
     std::vector<uint8_t> depth;
-    /// Arc length over strand length, 0 at the root to 255 at the tip.
+    /// Arc length over strand length, 0 at the root to 255 at the tip; empty: that of the card.
     std::vector<uint8_t> parameter;
     /// Unit tangent root to tip, 128 + 127 (across, along, out of the card).
     std::vector<glm::u8vec3> tangent;
-    /// Index of the strand in its groom, modulo 65536: seeds colour and dither.
+    /// Index of the strand in its groom, modulo 65536: seeds colour and dither; empty: a card is
+    /// one strand.
     std::vector<uint16_t> strand;
     /// Colour of the strand, sRGB; empty where the groom has none of its own.
     std::vector<glm::u8vec3> color;

@@ -1,6 +1,7 @@
 #include "modules/hair/cards/card_passes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 
@@ -15,6 +16,7 @@ using graph::PassContext;
 using graph::PassKind;
 
 constexpr uint32_t kProjectGroupSize = 64;
+constexpr uint32_t kTriangleGroupSize = 64;
 
 /// Push constants of shaders/hair/cards/project.comp.glsl.
 struct CardProjectPush {
@@ -36,9 +38,11 @@ struct CardVisibilityPush {
     uint32_t first_id;
     uint32_t frame;
     float alpha;
+    uint32_t threads;
+    uint32_t triangle_count;
     uint32_t padding = 0;
 };
-static_assert(sizeof(CardVisibilityPush) == 48);
+static_assert(sizeof(CardVisibilityPush) == 56);
 
 /// Push constants of shaders/hair/cards/shadow_depth.comp.glsl.
 struct CardShadowPush {
@@ -47,9 +51,11 @@ struct CardShadowPush {
     VkDeviceAddress target;
     glm::ivec2 size;
     float alpha;
+    uint32_t threads;
+    uint32_t triangle_count;
     uint32_t padding = 0;
 };
-static_assert(sizeof(CardShadowPush) == 40);
+static_assert(sizeof(CardShadowPush) == 48);
 
 gpu::ComputeInfo info(const char* shader, uint32_t push_bytes,
                       std::vector<uint32_t> constants = {}) {
@@ -81,6 +87,13 @@ CardProjectPush project_push(const HairDraw& draw, const glm::dmat4& to_clip, gl
 
 uint32_t project_threads(const CardBuffers& cards) {
     return cards.ribbons ? cards.point_count / 3 : cards.point_count;
+}
+
+/// Threads for each triangle of a groom that takes this many pixels: one for eight rows of them.
+uint32_t threads_of(const CardBuffers& cards, glm::ivec2 pixels) {
+    const uint32_t rows = std::max(cards.triangle_count / std::max(2 * cards.card_count, 1U), 1U);
+    const int height = std::max(pixels.x, pixels.y) / static_cast<int>(rows);
+    return std::clamp(std::bit_ceil(static_cast<uint32_t>(height / 8)), 1U, 32U);
 }
 
 bool make_projection(CardPipelines& pipelines, scene::RenderFrame& frame) {
@@ -139,6 +152,7 @@ graph::BufferHandle describe_card_visibility(const HairFrame& hair, CardPipeline
         for (const HairDraw& draw : draws) {
             if (draw.cards == nullptr) continue;
             commands.bind(draw.opacity == OpacityTechnique::kDither ? *moving : *still);
+            const uint32_t threads = threads_of(*draw.cards, draw.rect.end - draw.rect.first);
             commands.push(CardVisibilityPush{
                 .cards = draw.cards->set.address(),
                 .vertices = context.address(vertices) + draw.first_card_point * kCardVertexBytes,
@@ -146,8 +160,10 @@ graph::BufferHandle describe_card_visibility(const HairFrame& hair, CardPipeline
                 .size = size,
                 .first_id = draw.first_id,
                 .frame = index,
-                .alpha = draw.alpha});
-            commands.dispatch(draw.cards->triangle_count);
+                .alpha = draw.alpha,
+                .threads = threads,
+                .triangle_count = draw.cards->triangle_count});
+            commands.dispatch_threads(draw.cards->triangle_count * threads, kTriangleGroupSize);
         }
     });
     return target;
@@ -197,12 +213,15 @@ graph::BufferHandle describe_card_shadow(const HairFrame& hair, const light::Lig
         VkDeviceAddress source = context.address(vertices);
         for (const HairDraw& draw : casters) {
             if (draw.cards == nullptr) continue;
+            const uint32_t threads = threads_of(*draw.cards, glm::ivec2(size));
             commands.push(CardShadowPush{.cards = draw.cards->set.address(),
                                          .vertices = source,
                                          .target = target,
                                          .size = glm::ivec2(size),
-                                         .alpha = draw.alpha});
-            commands.dispatch(draw.cards->triangle_count);
+                                         .alpha = draw.alpha,
+                                         .threads = threads,
+                                         .triangle_count = draw.cards->triangle_count});
+            commands.dispatch_threads(draw.cards->triangle_count * threads, kTriangleGroupSize);
             source += draw.cards->point_count * kCardVertexBytes;
         }
     });

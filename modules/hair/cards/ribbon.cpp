@@ -18,7 +18,6 @@ constexpr uint32_t kDense = 64;
 constexpr uint32_t kLongestInterval = kDense / 8;
 /// Half axes are at least this long, in metres, so that every ribbon has an area.
 constexpr float kLeastHalfAxis = 2e-5f;
-constexpr uint32_t kKeepApart = 2;
 
 float mix_rows(const Ribbon& ribbon, const RibbonPoint& at, float RibbonRow::*value) {
     return glm::mix(ribbon.rows[at.interval].*value, ribbon.rows[at.interval + 1].*value, at.t);
@@ -165,11 +164,12 @@ Ribbon fit_ribbon(const StrandData& strands, std::span<const uint32_t> members,
 
     float tolerance = limits.tolerance;
     std::vector<uint32_t> kept = detail::rows_to_keep(dense, tolerance, kLongestInterval);
-    while (kept.size() > limits.max_rows && kept.size() > kKeepApart) {
-        tolerance *= 1.5f;
-        const uint32_t longest = tolerance > 0.1f ? kDense : kLongestInterval;
+    // Too many rows: coarser bends first, and longer intervals where those alone are too many.
+    uint32_t longest = kLongestInterval;
+    while (kept.size() > limits.max_rows) {
+        tolerance *= 1.3f;
+        while (longest < kDense && (kDense - 1) / longest + 2 > limits.max_rows) longest *= 2;
         kept = detail::rows_to_keep(dense, tolerance, longest);
-        if (tolerance > 1e6f) break;
     }
     Ribbon ribbon = pick_rows(dense, kept);
     spread = measure_spread(strands, members, ribbon, limits.tip_scale);

@@ -8,10 +8,10 @@
 const uint kCardsRibbons = 1u;
 const uint kCardsColors = 2u;
 const uint kCardsParameters = 4u;  // the atlas holds root to tip; else the vertices' does
+const uint kCardsApart = 8u;       // no strand map, or several cards on one place of the atlas
 const uint kCardLevels = 5u;       // of the atlas, each half as large as the one before
 
 layout(buffer_reference, scalar) readonly buffer Vec2s { vec2 at[]; };
-layout(buffer_reference, scalar) readonly buffer Uvec3s { uvec3 at[]; };
 layout(buffer_reference, scalar) readonly buffer Uvec4s { uvec4 at[]; };
 
 // A card's vertex as one view sees it.
@@ -27,7 +27,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer CardVertice
 // One card groom; what moves (points) comes apart.
 struct CardSet {
     Vec2s uvs;
-    Uvec3s triangles;
+    Uvec4s triangles;  // three points and the card
     Uints parameters;
     Uvec4s frames;
     Uints shape;   // per texel: opacity, depth, strand (16 bits)
@@ -41,22 +41,10 @@ struct CardSet {
 };
 layout(buffer_reference, scalar) readonly buffer Cards { CardSet set; };
 
-/// Index of a texel in `shape`, `strand` and `color`; levels lie one after the other.
-uint card_texel(CardSet set, vec2 uv, uint level) {
-    uvec2 size = set.size;
-    uint first = 0u;
-    for (uint i = 0u; i < level; ++i) {
-        first += size.x * size.y;
-        size = max(size >> 1u, uvec2(1u));
-    }
-    uvec2 texel = min(uvec2(clamp(uv, 0.0, 1.0) * vec2(size)), size - 1u);
-    return first + texel.y * size.x + texel.x;
-}
-
 float card_opacity(uint shape) { return float(shape & 0xffu) * (1.0 / 255.0); }
 float card_signed(uint code) { return max((float(code & 0xffu) - 128.0) * (1.0 / 127.0), -1.0); }
 float card_depth(uint shape) { return card_signed(shape >> 8); }
-uint card_seed(uint shape) { return hash_uint((shape >> 16) + 1u); }
+uint card_seed(uint shape, uint card_salt) { return hash_uint((shape >> 16) + 1u + card_salt); }
 
 /// Three vertices, what makes the screen's plane of them, and the level of the atlas that suits.
 struct CardTriangle {
@@ -66,12 +54,16 @@ struct CardTriangle {
     vec2 edge2;
     float inverse_area;  // of the parallelogram; 0: nothing to draw
     vec3 inverse_w;
-    uint level;
+    uint first_texel;  // of its level
+    uvec2 level_size;
+    uint salt;  // of its card's seeds
 };
 
 CardTriangle card_triangle(CardSet set, CardVertices vertices, uint triangle) {
     CardTriangle result;
-    result.points = set.triangles.at[triangle];
+    uvec4 joined = set.triangles.at[triangle];
+    result.points = joined.xyz;
+    result.salt = (set.flags & kCardsApart) != 0u ? joined.w * 0x9E3779B9u : 0u;
     vec4 a = vertices.at[result.points.x].screen;
     vec4 b = vertices.at[result.points.y].screen;
     vec4 c = vertices.at[result.points.z].screen;
@@ -89,8 +81,21 @@ CardTriangle card_triangle(CardSet set, CardVertices vertices, uint triangle) {
     vec2 size = vec2(set.size);
     float texels = abs(uv1.x * uv2.y - uv1.y * uv2.x) * size.x * size.y;
     float level = 0.5 * log2(max(texels / max(abs(area), 1.0e-6), 1.0)) + 0.25;
-    result.level = min(uint(level), kCardLevels - 1u);
+    // Levels lie one after the other.
+    result.first_texel = 0u;
+    result.level_size = set.size;
+    for (uint i = min(uint(level), kCardLevels - 1u); i > 0u; --i) {
+        result.first_texel += result.level_size.x * result.level_size.y;
+        result.level_size = max(result.level_size >> 1u, uvec2(1u));
+    }
     return result;
+}
+
+/// Index of a texel in `shape`, `strand` and `color`.
+uint card_texel(CardTriangle triangle, vec2 uv) {
+    uvec2 size = triangle.level_size;
+    uvec2 texel = min(uvec2(clamp(uv, 0.0, 1.0) * vec2(size)), size - 1u);
+    return triangle.first_texel + texel.y * size.x + texel.x;
 }
 
 /// Weights of the vertices on the screen: what is linear there, such as depth.

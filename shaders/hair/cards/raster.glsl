@@ -1,29 +1,25 @@
-// Walks a card's triangle on the screen, a thread a row of pixels, and looks its atlas up. The includer
-// defines `void fragment(ivec2 pixel, float depth, float alpha, uint seed)`.
+// Walks a card's triangle on the screen, row by row, and looks its atlas up. Several threads may share a
+// triangle's rows: one for small ones, which then pay the set-up once, more for large ones. The includer
+// defines `bool hidden(ivec2 pixel, float depth)`: whether something nearer is there already, and
+// `void fragment(ivec2 pixel, float depth, float alpha, uint seed)`.
 #include "hair/cards/cards.glsl"
 
-/// What a triangle's pixels need of its vertices.
-struct CardSpan {
-    CardTriangle triangle;
-    vec3 depth;
-    vec3 depth_step;
-    vec3 alpha;
-    vec3 density;
-    vec2 uv[3];
+/// What changes evenly over a triangle's pixels.
+struct CardValues {
+    vec4 place;  // uv / w, 1 / w, depth
+    vec4 look;   // depth per unit of the atlas's depth, its size, alpha factor, optical depth factor
 };
 
-CardSpan card_span(CardSet set, CardVertices vertices, CardTriangle triangle) {
-    CardSpan span;
-    span.triangle = triangle;
+CardValues card_values(CardSet set, CardVertices vertices, CardTriangle triangle, vec3 weights) {
+    CardValues values = CardValues(vec4(0.0), vec4(0.0));
     for (int i = 0; i < 3; ++i) {
         CardVertex vertex = vertices.at[triangle.points[i]];
-        span.depth[i] = vertex.screen.z;
-        span.depth_step[i] = vertex.screen.w;
-        span.alpha[i] = vertex.toward.w;
-        span.density[i] = vertex.across.w;
-        span.uv[i] = set.uvs.at[triangle.points[i]];
+        float w = vertex.position.w;
+        values.place += weights[i] * vec4(set.uvs.at[triangle.points[i]] * w, w, vertex.screen.z);
+        values.look += weights[i] * vec4(vertex.screen.w, abs(vertex.screen.w), vertex.toward.w,
+                                         vertex.across.w);
     }
-    return span;
+    return values;
 }
 
 /// Share of an area that is covered where `opacity` of it is and the strands stand `density` times as
@@ -32,16 +28,13 @@ float card_alpha(float opacity, float density) {
     return opacity >= 1.0 ? 1.0 : 1.0 - exp2(log2(1.0 - opacity) * density);
 }
 
-void card_pixel(CardSet set, CardSpan span, ivec2 pixel) {
-    vec3 on_screen = card_screen_weights(span.triangle, vec2(pixel) + 0.5);
-    vec3 weights = card_weights(span.triangle, on_screen);
-    vec2 uv = span.uv[0] * weights.x + span.uv[1] * weights.y + span.uv[2] * weights.z;
-    uint shape = set.shape.at[card_texel(set, uv, span.triangle.level)];
+void card_pixel(CardSet set, CardTriangle triangle, CardValues values, ivec2 pixel) {
+    if (hidden(pixel, values.place.w + values.look.y)) return;
+    uint shape = set.shape.at[card_texel(triangle, values.place.xy / values.place.z)];
     if ((shape & 0xffu) == 0u) return;
-    float alpha = card_alpha(card_opacity(shape), dot(span.density, weights)) *
-                  dot(span.alpha, weights);
-    float depth = dot(span.depth, on_screen) + card_depth(shape) * dot(span.depth_step, on_screen);
-    fragment(pixel, depth, alpha, card_seed(shape));
+    float alpha = card_alpha(card_opacity(shape), values.look.w) * values.look.z;
+    float depth = values.place.w + card_depth(shape) * values.look.x;
+    fragment(pixel, depth, alpha, card_seed(shape, triangle.salt));
 }
 
 /// Pixels of row `y` whose centres lie in the triangle: first, and end (not included).
@@ -60,18 +53,31 @@ ivec2 card_row(CardTriangle triangle, int y, int width) {
     return ivec2(clamp(ceil(vec2(low, high) - 0.5), vec2(0.0), vec2(float(width))));
 }
 
-void walk_card_triangle(CardSet set, CardVertices vertices, uint triangle, uint thread, uint threads,
+void walk_card_triangle(CardSet set, CardVertices vertices, uint index, uint thread, uint threads,
                         ivec2 size) {
-    CardTriangle t = card_triangle(set, vertices, triangle);
-    if (t.inverse_area == 0.0) return;
-    vec2 ys = vec2(t.corner.y) + vec2(min(min(t.edge1.y, t.edge2.y), 0.0),
-                                      max(max(t.edge1.y, t.edge2.y), 0.0));
+    CardTriangle triangle = card_triangle(set, vertices, index);
+    if (triangle.inverse_area == 0.0) return;
+    vec2 ys = vec2(triangle.corner.y) + vec2(min(min(triangle.edge1.y, triangle.edge2.y), 0.0),
+                                             max(max(triangle.edge1.y, triangle.edge2.y), 0.0));
     int first = int(clamp(ceil(ys.x - 0.5), 0.0, float(size.y)));
     int end = int(clamp(ceil(ys.y - 0.5), 0.0, float(size.y)));
-    if (first >= end) return;
-    CardSpan span = card_span(set, vertices, t);
+    if (first + int(thread) >= end) return;
+    CardValues corner = card_values(set, vertices, triangle, vec3(1.0, 0.0, 0.0));
+    vec2 to_b = vec2(triangle.edge2.y, -triangle.edge2.x) * triangle.inverse_area;
+    vec2 to_c = vec2(-triangle.edge1.y, triangle.edge1.x) * triangle.inverse_area;
+    CardValues right = card_values(set, vertices, triangle, vec3(-to_b.x - to_c.x, to_b.x, to_c.x));
+    CardValues down = card_values(set, vertices, triangle, vec3(-to_b.y - to_c.y, to_b.y, to_c.y));
     for (int y = first + int(thread); y < end; y += int(threads)) {
-        ivec2 row = card_row(t, y, size.x);
-        for (int x = row.x; x < row.y; ++x) card_pixel(set, span, ivec2(x, y));
+        ivec2 row = card_row(triangle, y, size.x);
+        if (row.x >= row.y) continue;
+        vec2 offset = vec2(row.x, y) + 0.5 - triangle.corner;
+        CardValues values;
+        values.place = corner.place + offset.x * right.place + offset.y * down.place;
+        values.look = corner.look + offset.x * right.look + offset.y * down.look;
+        for (int x = row.x; x < row.y; ++x) {
+            card_pixel(set, triangle, values, ivec2(x, y));
+            values.place += right.place;
+            values.look += right.look;
+        }
     }
 }

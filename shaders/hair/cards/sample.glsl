@@ -25,7 +25,7 @@ HairSample card_sample(CardSet set, CardVertices vertices, uint index, vec2 pixe
         parameter += weights[i] * vertex.along.w;
         uv += weights[i] * set.uvs.at[triangle.points[i]];
     }
-    uint texel = card_texel(set, uv, triangle.level);
+    uint texel = card_texel(triangle, uv);
     uint shape = set.shape.at[texel], strand = set.strand.at[texel];
     vec3 in_card = vec3(card_signed(strand), card_signed(strand >> 8), card_signed(strand >> 16));
 
@@ -35,7 +35,7 @@ HairSample card_sample(CardSet set, CardVertices vertices, uint index, vec2 pixe
     if (dot(result.tangent, result.tangent) < 1.0e-6) result.tangent = along;
     result.parameter = (set.flags & kCardsParameters) != 0u ? float(strand >> 24) * (1.0 / 255.0)
                                                             : parameter;
-    result.seed = card_seed(shape);
+    result.seed = card_seed(shape, triangle.salt);
     result.tint = (set.flags & kCardsColors) != 0u ? card_color(set.color.at[texel]) : vec3(1.0);
     return result;
 }

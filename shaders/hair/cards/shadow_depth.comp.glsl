@@ -5,15 +5,20 @@
 
 // Cards into the strands' shadow map of a light: float bits of reversed depth, with the strands' still
 // dither.
-layout(local_size_x = 16) in;
+layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
     Cards cards;
     CardVertices vertices;
     Words target;
     ivec2 size;
     float alpha_scale;
-    uint padding;
+    uint threads;  // that share a triangle
+    uint triangle_count;
 };
+
+bool hidden(ivec2 texel, float depth) {
+    return target.at[uint(texel.y * size.x + texel.x)] >= floatBitsToUint(max(depth, 0.0));
+}
 
 void fragment(ivec2 texel, float depth, float alpha, uint seed) {
     uint index = uint(texel.y * size.x + texel.x);
@@ -28,7 +33,8 @@ void fragment(ivec2 texel, float depth, float alpha, uint seed) {
 #include "hair/cards/raster.glsl"
 
 void main() {
+    uint triangle = gl_GlobalInvocationID.x / threads;
+    if (triangle >= triangle_count) return;
     CardSet set = cards.set;
-    walk_card_triangle(set, vertices, gl_WorkGroupID.x, gl_LocalInvocationID.x, gl_WorkGroupSize.x,
-                       size);
+    walk_card_triangle(set, vertices, triangle, gl_GlobalInvocationID.x % threads, threads, size);
 }

@@ -5,7 +5,7 @@
 #include "hair/opacity/dither.glsl"
 
 // Cards into the strands' visibility buffer: depth moved by the atlas's depth, id of the triangle.
-layout(local_size_x = 16) in;
+layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kStill = false;  // opacity=dither_still
 layout(push_constant, scalar) uniform Push {
     Cards cards;
@@ -15,9 +15,15 @@ layout(push_constant, scalar) uniform Push {
     uint first_id;
     uint frame;
     float alpha_scale;
+    uint threads;  // that share a triangle
+    uint triangle_count;
 };
 
 uint id;
+
+bool hidden(ivec2 pixel, float depth) {
+    return uint(target.at[uint(pixel.y * size.x + pixel.x)] >> 32) > floatBitsToUint(max(depth, 0.0));
+}
 
 void fragment(ivec2 pixel, float depth, float alpha, uint seed) {
     uint index = uint(pixel.y * size.x + pixel.x);
@@ -32,8 +38,9 @@ void fragment(ivec2 pixel, float depth, float alpha, uint seed) {
 #include "hair/cards/raster.glsl"
 
 void main() {
-    uint triangle = gl_WorkGroupID.x;
+    uint triangle = gl_GlobalInvocationID.x / threads;
+    if (triangle >= triangle_count) return;
     id = first_id + triangle + 1u;
     CardSet set = cards.set;
-    walk_card_triangle(set, vertices, triangle, gl_LocalInvocationID.x, gl_WorkGroupSize.x, size);
+    walk_card_triangle(set, vertices, triangle, gl_GlobalInvocationID.x % threads, threads, size);
 }

@@ -1,0 +1,350 @@
+#include "modules/hair/cards/build_cards.h"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "modules/hair/cards/atlas_levels.h"
+#include "modules/hair/cards/bake.h"
+#include "modules/hair/cards/cluster.h"
+#include "modules/hair/cards/pack.h"
+#include "modules/hair/cards/strand_path.h"
+#include "tests/unit/hair/cards/card_strands.h"
+
+// Cards against what is known of the strands they stand for: area, place, direction.
+namespace vellus::hair {
+namespace {
+
+using test::add_lock;
+using test::Lock;
+using test::strands_of;
+
+constexpr float kWidth = 0.0004f;
+
+std::vector<uint32_t> all_of(const StrandData& strands) {
+    std::vector<uint32_t> members(strands.strand_count());
+    std::iota(members.begin(), members.end(), 0U);
+    return members;
+}
+
+Groom head_of_locks(int locks, int strands_each) {
+    Groom groom;
+    for (int i = 0; i < locks; ++i) {
+        const float a = 6.2831853f * static_cast<float>(i) / static_cast<float>(locks);
+        add_lock(groom,
+                 {.root = {0.1f * std::cos(a), 0.0f, 0.1f * std::sin(a)},
+                  .radius = 0.008f,
+                  .fan = 1.5f,
+                  .bend = 0.03f},
+                 strands_each, static_cast<uint32_t>(i + 1));
+    }
+    return groom;
+}
+
+TEST(CardClusterTest, LocksApartAreTheirOwnClusters) {
+    const StrandData strands = strands_of(head_of_locks(6, 20), kWidth);
+    const std::vector<uint32_t> labels = cluster_strands(strands, 6);
+    // Strands of one lock share a label, and no two locks do: strand_source tells the lock.
+    std::vector<std::set<uint32_t>> labels_of_lock(6);
+    for (size_t s = 0; s < labels.size(); ++s) {
+        labels_of_lock[strands.strand_source[s] / 20].insert(labels[s]);
+    }
+    std::set<uint32_t> seen;
+    for (const auto& lock : labels_of_lock) {
+        EXPECT_EQ(lock.size(), 1u);
+        seen.insert(lock.begin(), lock.end());
+    }
+    EXPECT_EQ(seen.size(), 6u);
+}
+
+TEST(CardClusterTest, NoClusterIsEmptyEvenWhenAskedForMoreThanThereAreStrands) {
+    const StrandData strands = strands_of(head_of_locks(2, 5), kWidth);
+    for (const uint32_t count : {1u, 3u, 10u, 500u}) {
+        const std::vector<uint32_t> labels = cluster_strands(strands, count);
+        const uint32_t highest = *std::ranges::max_element(labels);
+        EXPECT_LT(highest, std::min<size_t>(count, strands.strand_count()));
+        const std::set<uint32_t> used(labels.begin(), labels.end());
+        EXPECT_EQ(used.size(), highest + 1) << count;
+    }
+}
+
+/// Where a strand is on the drawn surface of the ribbon, by projecting it on the plane of the
+/// closest quad: the share of points that lie inside the quad's outline.
+TEST(CardRibbonTest, HoldsEveryStrandWithItsWidth) {
+    for (const float curl : {0.0f, 0.004f}) {
+        Groom groom;
+        add_lock(groom, {.radius = 0.01f, .fan = 2.5f, .bend = 0.08f, .curl = curl}, 60, 7);
+        const StrandData strands = strands_of(groom, kWidth);
+        const Ribbon ribbon = fit_ribbon(strands, all_of(strands), {.tip_scale = 1.0f});
+        for (size_t s = 0; s < strands.strand_count(); ++s) {
+            for (int i = 0; i <= 200; ++i) {
+                const glm::vec3 p =
+                    strand_position(strands, s, static_cast<float>(i) / 200.0f);
+                const RibbonPoint at = ribbon.locate(p, 0);
+                // Points between the 96 samples that were measured may bulge out by a little of a
+                // curl's radius.
+                const float slack = 1e-5f + 0.1f * curl;
+                EXPECT_LE(std::abs(at.across) + 0.5f * kWidth, ribbon.half_width(at) + slack);
+                EXPECT_LE(std::abs(at.toward) + 0.5f * kWidth, ribbon.half_thickness(at) + slack);
+            }
+        }
+    }
+}
+
+TEST(CardRibbonTest, LiesWhereTheStrandsSpreadMost) {
+    Groom groom;
+    add_lock(groom, {.radius = 0.01f, .flatness = 0.1f}, 80, 3);
+    const StrandData strands = strands_of(groom, kWidth);
+    const Ribbon ribbon = fit_ribbon(strands, all_of(strands), {});
+    for (const RibbonRow& row : ribbon.rows) {
+        EXPECT_GT(std::abs(row.across.x), 0.99f);
+        EXPECT_NEAR(glm::length(row.across), 1.0f, 1e-5f);
+        EXPECT_NEAR(glm::dot(row.across, row.along), 0.0f, 1e-5f);
+        EXPECT_NEAR(glm::dot(glm::cross(row.across, row.along), row.toward), 1.0f, 1e-5f);
+        EXPECT_LT(row.half_thickness, 0.5f * row.half_width);
+    }
+    EXPECT_NEAR(ribbon.length(), 0.22f, 0.005f);
+}
+
+TEST(CardRibbonTest, RowsFollowTheBend) {
+    Groom straight;
+    Groom bent;
+    add_lock(straight, {}, 20, 1);
+    add_lock(bent, {.bend = 0.2f}, 20, 1);
+    const StrandData a = strands_of(straight, kWidth);
+    const StrandData b = strands_of(bent, kWidth);
+    const size_t few = fit_ribbon(a, all_of(a), {.max_rows = 64}).rows.size();
+    const size_t many =
+        fit_ribbon(b, all_of(b), {.max_rows = 64, .tolerance = 0.0001f}).rows.size();
+    EXPECT_GT(many, few);
+    for (const uint32_t limit : {2u, 3u, 5u, 9u, 20u}) {
+        EXPECT_LE(fit_ribbon(b, all_of(b), {.max_rows = limit}).rows.size(), limit);
+    }
+}
+
+/// Area of the union of flat strands in the XY plane by brute force: points of a fine grid within
+/// half a width of any of them, times the area of a grid cell. In square metres.
+double brute_force_area(const StrandData& strands, float tip_scale) {
+    constexpr double kCell = 0.0001;
+    const glm::vec3 low = strands.bounds.low - kWidth;
+    const glm::vec3 high = strands.bounds.high + kWidth;
+    const auto columns = static_cast<size_t>((high.x - low.x) / kCell) + 1;
+    const auto rows = static_cast<size_t>((high.y - low.y) / kCell) + 1;
+    std::vector<uint8_t> covered(columns * rows, 0);
+    for (size_t segment = 0; segment < strands.segment_count(); ++segment) {
+        const uint32_t point = strands.segment_point[segment];
+        const glm::dvec2 a(strands.positions[point]);
+        const glm::dvec2 b(strands.positions[point + 1]);
+        const glm::dvec2 step = b - a;
+        const double radius[2] = {0.5 * strand_width(strands, point, tip_scale),
+                                  0.5 * strand_width(strands, point + 1, tip_scale)};
+        const auto cell = [&](double value, double start) {
+            return static_cast<size_t>(std::max((value - start) / kCell, 0.0));
+        };
+        for (size_t y = cell(std::min(a.y, b.y) - kWidth, low.y);
+             y <= std::min(cell(std::max(a.y, b.y) + kWidth, low.y), rows - 1); ++y) {
+            for (size_t x = cell(std::min(a.x, b.x) - kWidth, low.x);
+                 x <= std::min(cell(std::max(a.x, b.x) + kWidth, low.x), columns - 1); ++x) {
+                const glm::dvec2 p(low.x + (static_cast<double>(x) + 0.5) * kCell,
+                                   low.y + (static_cast<double>(y) + 0.5) * kCell);
+                const double t =
+                    std::clamp(glm::dot(p - a, step) / glm::dot(step, step), 0.0, 1.0);
+                const double r = glm::mix(radius[0], radius[1], t);
+                if (glm::distance(p, a + step * t) <= r) covered[y * columns + x] = 1;
+            }
+        }
+    }
+    return kCell * kCell * static_cast<double>(std::ranges::count(covered, 1));
+}
+
+/// Opacity of a card times the area of its texels, quad by quad.
+double card_area(const CardGroom& cards) {
+    double area = 0.0;
+    const CardAtlas& atlas = cards.atlas;
+    for (size_t first = 0; first + 5 < cards.points.size(); first += 3) {
+        const glm::vec3* p = &cards.points[first];
+        if (std::ranges::find(cards.card_begin, first + 3) != cards.card_begin.end()) continue;
+        const glm::vec2 low = cards.uvs[first];
+        const glm::vec2 high = cards.uvs[first + 4];
+        const double length = glm::distance(0.5f * (p[0] + p[1]), 0.5f * (p[3] + p[4]));
+        const double height = (high.y - low.y) * static_cast<float>(atlas.height);
+        const auto y0 = static_cast<uint32_t>(low.y * static_cast<float>(atlas.height) + 0.5f);
+        const auto y1 = static_cast<uint32_t>(high.y * static_cast<float>(atlas.height) + 0.5f);
+        const auto x0 = static_cast<uint32_t>(low.x * static_cast<float>(atlas.width) + 0.5f);
+        const auto x1 = static_cast<uint32_t>(high.x * static_cast<float>(atlas.width) + 0.5f);
+        for (uint32_t y = y0; y < y1; ++y) {
+            const double t = (static_cast<double>(y - y0) + 0.5) / static_cast<double>(y1 - y0);
+            const double width = glm::mix(static_cast<double>(glm::distance(p[0], p[1])),
+                                          static_cast<double>(glm::distance(p[3], p[4])), t);
+            double row = 0.0;
+            for (uint32_t x = x0; x < x1; ++x) row += atlas.opacity[size_t{y} * atlas.width + x];
+            area += row / 255.0 * width / (x1 - x0) * length / height;
+        }
+    }
+    return area;
+}
+
+TEST(CardBakeTest, OpacityAddsUpToTheAreaOfTheStrands) {
+    // Flat locks in the XY plane, so that the plane of the card is that of the brute force; those
+    // that fan out are the ones a mean centreline with a mean width would shrink.
+    struct Case {
+        float fan;
+        int strands;
+        float tip_scale;
+    };
+    for (const Case& c : {Case{1.0f, 10, 1.0f}, Case{3.0f, 40, 1.0f}, Case{6.0f, 80, 0.3f}}) {
+        Groom groom;
+        add_lock(groom, {.radius = 0.006f, .fan = c.fan, .flatness = 0.0f}, c.strands, 11);
+        const StrandData strands = strands_of(groom, kWidth);
+        auto built = build_cards(strands, {.cards = 1, .along_ratio = 0.3f,
+                                           .tip_scale = c.tip_scale});
+        ASSERT_TRUE(built) << built.error().message();
+        const double expected = brute_force_area(strands, c.tip_scale);
+        // Supersampling at 4 x 4 and texels as wide as a strand: 2 % in hundreds of texels.
+        EXPECT_NEAR(card_area(built->cards), expected, 0.02 * expected) << c.fan;
+    }
+}
+
+TEST(CardBakeTest, TangentsAreUnitAndDepthOrderIsTheStrands) {
+    Groom groom;
+    add_lock(groom, {.radius = 0.01f, .bend = 0.05f, .flatness = 0.6f, .curl = 0.002f}, 50, 5);
+    const StrandData strands = strands_of(groom, kWidth);
+    auto built = build_cards(strands, {.cards = 1});
+    ASSERT_TRUE(built);
+    const CardAtlas& atlas = built->cards.atlas;
+    size_t deep = 0;
+    for (size_t i = 0; i < atlas.texels(); ++i) {
+        const glm::u8vec3 code = atlas.tangent[i];
+        const glm::vec3 tangent(decode_signed(code.x), decode_signed(code.y),
+                                decode_signed(code.z));
+        // Three codes of 1/127 each: half a step an axis.
+        EXPECT_NEAR(glm::length(tangent), 1.0f, 0.5f * std::sqrt(3.0f) / 127.0f + 1e-4f);
+        deep += std::abs(decode_signed(atlas.depth[i])) > 0.3f ? 1 : 0;
+    }
+    EXPECT_GT(deep, atlas.texels() / 10) << "a thick lock has strands before and behind its middle";
+}
+
+TEST(CardBakeTest, TheNearerStrandIsSeen) {
+    Groom groom;
+    // Two strands that cross; the second one lies before the first.
+    groom.points = {{-0.01f, 0, 0}, {0.01f, -0.1f, 0}, {0.01f, 0, 0.004f}, {-0.01f, -0.1f, 0.004f}};
+    groom.strand_begin = {0, 2, 4};
+    const StrandData strands = strands_of(groom, 0.002f);
+    const std::vector<uint32_t> members = {0, 1};
+    const Ribbon ribbon = fit_ribbon(strands, members, {});
+    const CardAtlas card = bake_card(strands, members, ribbon, {.size = {64, 64}});
+    const float towards_z = ribbon.rows[0].toward.z;
+    const size_t middle = 32 * 64 + 32;
+    EXPECT_EQ(card.strand[middle], towards_z > 0.0f ? 1 : 0);
+    EXPECT_GT(decode_signed(card.depth[middle]), 0.0f);
+    EXPECT_EQ(card.opacity[middle], 255);
+}
+
+TEST(CardBuildTest, TheSameBytesOnAnyNumberOfCores) {
+    const StrandData strands = strands_of(head_of_locks(12, 40), kWidth);
+    auto first = build_cards(strands, {.cards = 24});
+    const oneapi::tbb::global_control one(
+        oneapi::tbb::global_control::max_allowed_parallelism, 1);
+    auto second = build_cards(strands, {.cards = 24});
+    ASSERT_TRUE(first && second);
+    EXPECT_EQ(first->cards.points, second->cards.points);
+    EXPECT_EQ(first->cards.uvs, second->cards.uvs);
+    EXPECT_EQ(first->cards.triangles, second->cards.triangles);
+    EXPECT_EQ(first->cards.parameters, second->cards.parameters);
+    EXPECT_EQ(first->cards.card_begin, second->cards.card_begin);
+    EXPECT_EQ(first->cards.atlas.opacity, second->cards.atlas.opacity);
+    EXPECT_EQ(first->cards.atlas.depth, second->cards.atlas.depth);
+    EXPECT_EQ(first->cards.atlas.tangent, second->cards.atlas.tangent);
+    EXPECT_EQ(first->cards.atlas.strand, second->cards.atlas.strand);
+    EXPECT_EQ(first->cards.card_count(), 24u);
+}
+
+TEST(CardBuildTest, EveryStrandIsInTheAtlas) {
+    const StrandData strands = strands_of(head_of_locks(4, 10), kWidth);
+    auto built = build_cards(strands, {.cards = 8});
+    ASSERT_TRUE(built);
+    std::set<uint16_t> seen;
+    for (size_t i = 0; i < built->cards.atlas.texels(); ++i) {
+        if (built->cards.atlas.opacity[i] > 0) seen.insert(built->cards.atlas.strand[i]);
+    }
+    EXPECT_EQ(seen.size(), strands.strand_count());
+}
+
+TEST(CardBuildTest, TheAtlasKeepsItsLimit) {
+    const StrandData strands = strands_of(head_of_locks(8, 30), kWidth);
+    auto built = build_cards(strands, {.cards = 16, .texels_per_metre = 1e5f,
+                                       .max_texels = 100'000});
+    ASSERT_TRUE(built);
+    // Shelves leave some of it empty.
+    EXPECT_LT(built->cards.atlas.texels(), 150'000u);
+    EXPECT_EQ(built->report.bytes, built->cards.bytes());
+}
+
+TEST(CardBuildTest, SaysWhatIsWrong) {
+    const StrandData strands = strands_of(head_of_locks(1, 3), kWidth);
+    const auto message = [&](const StrandData& from, const CardBuildOptions& options) {
+        const auto built = build_cards(from, options);
+        return built ? std::string() : built.error().message();
+    };
+    EXPECT_NE(message(StrandData{}, {}).find("no strands"), std::string::npos);
+    EXPECT_NE(message(strands, {.cards = 0}).find("1 to 65536"), std::string::npos);
+    EXPECT_NE(message(strands, {.along_ratio = 2.0f}).find("0.01 to 1"), std::string::npos);
+    EXPECT_NE(message(strands, {.samples = 0}).find("1 to 16"), std::string::npos);
+    EXPECT_NE(message(strands, {.max_rows = 1}).find("2 to 64"), std::string::npos);
+    EXPECT_NE(message(strands, {.texels_per_metre = NAN}).find("texels per metre"),
+              std::string::npos);
+}
+
+TEST(CardAtlasTest, EveryLevelKeepsTheMeanOpacity) {
+    const StrandData strands = strands_of(head_of_locks(5, 30), kWidth);
+    auto built = build_cards(strands, {.cards = 5});
+    ASSERT_TRUE(built);
+    const CardAtlas& atlas = built->cards.atlas;
+    const AtlasLevels levels = make_levels(atlas);
+    size_t first = 0;
+    double mean0 = 0.0;
+    for (uint32_t level = 0; level < kCardLevels; ++level) {
+        const glm::uvec2 size = level_size(atlas, level);
+        const size_t count = size_t{size.x} * size.y;
+        double sum = 0.0;
+        for (size_t i = first; i < first + count; ++i) sum += levels.shape[i] & 0xffU;
+        const double mean = sum / static_cast<double>(count);
+        if (level == 0) mean0 = mean;
+        // Rounding to a byte: half a step at most in each level, and both ways.
+        EXPECT_NEAR(mean, mean0, 0.25) << level;
+        first += count;
+    }
+    EXPECT_EQ(first, levels.shape.size());
+    EXPECT_GT(mean0, 10.0);
+}
+
+TEST(CardPackTest, RectanglesNeitherOverlapNorLeaveTheAtlas) {
+    std::mt19937 random(4);
+    std::vector<glm::uvec2> sizes;
+    for (int i = 0; i < 300; ++i) {
+        sizes.emplace_back(16 * (1 + random() % 8), 16 * (1 + random() % 20));
+    }
+    const Packing packing = pack_shelves(sizes);
+    std::vector<uint8_t> used(size_t{packing.size.x / 16} * (packing.size.y / 16), 0);
+    uint64_t area = 0;
+    for (size_t i = 0; i < sizes.size(); ++i) {
+        ASSERT_LE(packing.corners[i].x + sizes[i].x, packing.size.x);
+        ASSERT_LE(packing.corners[i].y + sizes[i].y, packing.size.y);
+        area += uint64_t{sizes[i].x} * sizes[i].y;
+        for (uint32_t y = 0; y < sizes[i].y / 16; ++y) {
+            for (uint32_t x = 0; x < sizes[i].x / 16; ++x) {
+                const glm::uvec2 cell = packing.corners[i] / 16U + glm::uvec2(x, y);
+                uint8_t& cell_used = used[size_t{cell.y} * (packing.size.x / 16) + cell.x];
+                EXPECT_EQ(cell_used, 0);
+                cell_used = 1;
+            }
+        }
+    }
+    EXPECT_GT(static_cast<double>(area), 0.85 * packing.size.x * packing.size.y);
+}
+
+}  // namespace
+}  // namespace vellus::hair
