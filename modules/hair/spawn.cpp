@@ -7,6 +7,8 @@
 #include "engine/platform/jobs.h"
 #include "engine/platform/log.h"
 #include "modules/hair/binding/bind_hair.h"
+#include "modules/hair/cards/add_cards.h"
+#include "modules/hair/cards/card_file.h"
 #include "modules/hair/components.h"
 #include "modules/hair/groom/load_strands.h"
 #include "modules/light/light_set.h"
@@ -84,6 +86,9 @@ LibraryGroom describe_groom(const std::string& name, const StrandData& strands,
 Result<uint32_t> add_groom(World& world, gpu::Device& device, const std::filesystem::path& path,
                            bool upright) {
     if (const auto known = find_groom(world, strands_name(path, upright))) return *known;
+    auto cards = find_cards(path);
+    if (!cards) return cards.error();
+    if (*cards) return add_cards(world, device, strands_name(path, upright), **cards);
     auto loaded = load_strands(path, upright);
     if (!loaded) return loaded.error();
     return add_strands(world, device, loaded->name, loaded->strands, loaded->report);

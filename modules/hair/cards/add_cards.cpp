@@ -15,6 +15,8 @@ Result<uint32_t> add_cards(World& world, gpu::Device& device, const std::string&
     library.grooms.push_back({.name = name,
                               .strands = std::move(*points),
                               .cards = std::move(*buffers),
+                              .positions = cards.points,
+                              .strand_begin = cards.card_begin,
                               .bounds = bounds_of(cards),
                               .outermost = outermost_points(cards.points),
                               .has_colors = !cards.atlas.color.empty()});

@@ -46,8 +46,9 @@ uint32_t mean_byte(const std::vector<uint32_t>& words, const Block& block, uint3
     return static_cast<uint32_t>(std::lround(sum));
 }
 
-uint32_t mean_opacity(const std::vector<uint32_t>& shape, const Block& block) {
-    uint32_t sum = 2;
+/// Halves are rounded up and down in turn, so that no level drifts.
+uint32_t mean_opacity(const std::vector<uint32_t>& shape, const Block& block, glm::uvec2 at) {
+    uint32_t sum = 1 + ((at.x ^ at.y) & 1U);
     for (const size_t texel : block.texels) sum += byte_of(shape[texel], 0);
     return sum / 4;
 }
@@ -70,7 +71,7 @@ void add_level(glm::uvec2 below, glm::uvec2 size, size_t first, AtlasLevels& lev
                 const glm::uvec2 at(x, static_cast<uint32_t>(y));
                 const Block block = block_of(levels.shape, first, below, at);
                 const size_t texel = next + y * size.x + x;
-                levels.shape[texel] = mean_opacity(levels.shape, block) |
+                levels.shape[texel] = mean_opacity(levels.shape, block, at) |
                                       mean_byte(levels.shape, block, 1) << 8U |
                                       (levels.shape[block.texels[block.strongest]] & 0xffff0000U);
                 levels.strand[texel] = mean_bytes(levels.strand, block, 4);

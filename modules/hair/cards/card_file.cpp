@@ -255,6 +255,17 @@ Result<CardGroom> cards_from_scene(const asset::SceneAsset& scene,
     return Reader(scene, path).read();
 }
 
+Result<std::optional<CardGroom>> find_cards(const std::filesystem::path& path) {
+    if (path.extension() != ".gltf" && path.extension() != ".glb")
+        return std::optional<CardGroom>();
+    const auto scene = asset::load_gltf(path);
+    if (!scene) return scene.error();
+    if (!holds_cards(*scene)) return std::optional<CardGroom>();
+    auto cards = cards_from_scene(*scene, path);
+    if (!cards) return cards.error();
+    return std::optional<CardGroom>(std::move(*cards));
+}
+
 Result<CardGroom> load_cards(const std::filesystem::path& path) {
     const auto scene = asset::load_gltf(path);
     if (!scene) return scene.error();

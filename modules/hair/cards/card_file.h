@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "engine/asset/scene_asset.h"
@@ -20,6 +21,8 @@ bool holds_cards(const asset::SceneAsset& scene);
 /// optional: without one, tangents run along the card, depth is 0, and each card is one strand.
 /// Errors name file, field and remedy.
 Result<CardGroom> load_cards(const std::filesystem::path& path);
+/// The same, or nothing where the file is no glTF or holds no cards.
+Result<std::optional<CardGroom>> find_cards(const std::filesystem::path& path);
 Result<CardGroom> cards_from_scene(const asset::SceneAsset& scene,
                                    const std::filesystem::path& path);
 

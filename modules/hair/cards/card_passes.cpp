@@ -80,7 +80,7 @@ CardProjectPush project_push(const HairDraw& draw, const glm::dmat4& to_clip, gl
     return {.to_clip = glm::mat4(to_clip),
             .eye = eye_of(to_clip),
             .cards = draw.cards->set.address(),
-            .points = draw.strands->positions.address(),
+            .points = draw.positions,
             .target = 0,
             .viewport = viewport};
 }
@@ -110,6 +110,7 @@ void describe_card_projection(HairFrame& hair, CardPipelines& pipelines,
     hair.card_vertices =
         frame.graph.create_buffer("hair card vertices", {hair.card_points * kCardVertexBytes});
     auto pass = frame.graph.add_pass("hair/cards_project", PassKind::kCompute);
+    if (hair.deformed) pass.read(hair.deformed, Access::kStorageRead);
     hair.card_vertices =
         pass.write(hair.card_vertices, Access::kStorageWrite, graph::Load::kDiscard);
     pass.execute([draws = std::span<const HairDraw>(hair.draws), target = hair.card_vertices,
@@ -186,16 +187,17 @@ graph::BufferHandle describe_card_shadow(const HairFrame& hair, const light::Lig
     auto vertices =
         frame.graph.create_buffer("hair card light vertices", {points * kCardVertexBytes});
     auto project = frame.graph.add_pass("hair/cards_shadow_project", PassKind::kCompute);
+    if (hair.deformed) project.read(hair.deformed, Access::kStorageRead);
     vertices = project.write(vertices, Access::kStorageWrite, graph::Load::kDiscard);
     project.execute([casters = std::span<const HairDraw>(hair.casters), vertices,
-                     to_shadow = lights.world_to_shadow[index], size = light.shadow_size,
+                     to_hair = lights.world_to_hair[index], size = light.hair_size,
                      pipeline = pipelines.project](PassContext& context) {
         gpu::CommandBuffer& commands = context.commands();
         commands.bind(*pipeline);
         VkDeviceAddress target = context.address(vertices);
         for (const HairDraw& draw : casters) {
             if (draw.cards == nullptr) continue;
-            CardProjectPush push = project_push(draw, to_shadow * draw.world, glm::vec2(size));
+            CardProjectPush push = project_push(draw, to_hair * draw.world, glm::vec2(size));
             push.target = target;
             commands.push(push);
             commands.dispatch_threads(project_threads(*draw.cards), kProjectGroupSize);
@@ -206,7 +208,7 @@ graph::BufferHandle describe_card_shadow(const HairFrame& hair, const light::Lig
     pass.read(vertices, Access::kStorageRead);
     map = pass.write(map, Access::kStorageReadWrite);
     pass.execute([casters = std::span<const HairDraw>(hair.casters), vertices,
-                  target = light.hair_depth, size = light.shadow_size,
+                  target = light.hair_depth, size = light.hair_size,
                   pipeline = pipelines.shadow_depth](PassContext& context) {
         gpu::CommandBuffer& commands = context.commands();
         commands.bind(*pipeline);

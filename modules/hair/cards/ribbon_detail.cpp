@@ -22,16 +22,15 @@ struct Moments {
         xy += p.x * p.y;
         yy += p.y * p.y;
     }
-    /// Direction of the principal axis with its angle doubled, longer the clearer it is: opposite
-    /// axes are the same axis, so only doubled angles can be averaged.
+    /// Direction of the principal axis with its angle doubled, longer the more it matters (square
+    /// metres): opposite axes are the same axis, so only doubled angles can be averaged.
     [[nodiscard]] glm::dvec2 doubled_axis() const {
         if (count < 2.0) return glm::dvec2(0.0);
         const glm::dvec2 mean = sum / count;
         const double cxx = xx / count - mean.x * mean.x;
         const double cxy = xy / count - mean.x * mean.y;
         const double cyy = yy / count - mean.y * mean.y;
-        const double total = cxx + cyy;
-        return total > 0.0 ? glm::dvec2(cxx - cyy, 2.0 * cxy) / total : glm::dvec2(0.0);
+        return {cxx - cyy, 2.0 * cxy};
     }
 };
 
@@ -157,7 +156,7 @@ void turn_to_principal_axis(std::span<const RibbonPoint> points, Ribbon& ribbon)
     smooth_all(axes, static_cast<int>(axes.size()));
     double last = 0.0;
     for (size_t i = 0; i < axes.size(); ++i) {
-        double angle = glm::length(axes[i]) > 1e-9 ? 0.5 * std::atan2(axes[i].y, axes[i].x) : last;
+        double angle = glm::length(axes[i]) > 1e-15 ? 0.5 * std::atan2(axes[i].y, axes[i].x) : last;
         if (i > 0) angle -= std::numbers::pi * std::round((angle - last) / std::numbers::pi);
         turn(ribbon.rows[i], angle);
         last = angle;

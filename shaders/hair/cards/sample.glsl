@@ -35,9 +35,29 @@ HairSample card_sample(CardSet set, CardVertices vertices, uint index, vec2 pixe
     if (dot(result.tangent, result.tangent) < 1.0e-6) result.tangent = along;
     result.parameter = (set.flags & kCardsParameters) != 0u ? float(strand >> 24) * (1.0 / 255.0)
                                                             : parameter;
+    result.along = 0.0;
     result.seed = card_seed(shape, triangle.salt);
     result.tint = (set.flags & kCardsColors) != 0u ? card_color(set.color.at[texel]) : vec3(1.0);
     return result;
+}
+
+/// From where that point is to where it was last frame; for grooms whose points move. A tube that turns
+/// with the eye has no points of its own, so it moves as its rows do.
+vec3 card_previous_offset(HairInstance hair, CardSet set, CardVertices vertices, uint index, vec2 pixel) {
+    CardTriangle triangle = card_triangle(set, vertices, index);
+    vec3 weights = card_weights(triangle, card_screen_weights(triangle, pixel));
+    vec3 offset = vec3(0.0);
+    for (int i = 0; i < 3; ++i) {
+        uint point = triangle.points[i];
+        if ((set.flags & kCardsRibbons) != 0u) {
+            point -= point % 3u;
+            offset += 0.5 * weights[i] * (hair.previous_positions.at[point + 1u] -
+                                          hair.positions.at[point + 1u]);
+            weights[i] *= 0.5;
+        }
+        offset += weights[i] * (hair.previous_positions.at[point] - hair.positions.at[point]);
+    }
+    return offset;
 }
 
 #endif

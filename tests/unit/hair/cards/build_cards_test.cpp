@@ -81,8 +81,7 @@ TEST(CardRibbonTest, HoldsEveryStrandWithItsWidth) {
         const Ribbon ribbon = fit_ribbon(strands, all_of(strands), {.tip_scale = 1.0f});
         for (size_t s = 0; s < strands.strand_count(); ++s) {
             for (int i = 0; i <= 200; ++i) {
-                const glm::vec3 p =
-                    strand_position(strands, s, static_cast<float>(i) / 200.0f);
+                const glm::vec3 p = strand_position(strands, s, static_cast<float>(i) / 200.0f);
                 const RibbonPoint at = ribbon.locate(p, 0);
                 // Points between the 96 samples that were measured may bulge out by a little of a
                 // curl's radius.
@@ -150,8 +149,7 @@ double brute_force_area(const StrandData& strands, float tip_scale) {
                  x <= std::min(cell(std::max(a.x, b.x) + kWidth, low.x), columns - 1); ++x) {
                 const glm::dvec2 p(low.x + (static_cast<double>(x) + 0.5) * kCell,
                                    low.y + (static_cast<double>(y) + 0.5) * kCell);
-                const double t =
-                    std::clamp(glm::dot(p - a, step) / glm::dot(step, step), 0.0, 1.0);
+                const double t = std::clamp(glm::dot(p - a, step) / glm::dot(step, step), 0.0, 1.0);
                 const double r = glm::mix(radius[0], radius[1], t);
                 if (glm::distance(p, a + step * t) <= r) covered[y * columns + x] = 1;
             }
@@ -199,8 +197,8 @@ TEST(CardBakeTest, OpacityAddsUpToTheAreaOfTheStrands) {
         Groom groom;
         add_lock(groom, {.radius = 0.006f, .fan = c.fan, .flatness = 0.0f}, c.strands, 11);
         const StrandData strands = strands_of(groom, kWidth);
-        auto built = build_cards(strands, {.cards = 1, .along_ratio = 0.3f,
-                                           .tip_scale = c.tip_scale});
+        auto built =
+            build_cards(strands, {.cards = 1, .along_ratio = 0.3f, .tip_scale = c.tip_scale});
         ASSERT_TRUE(built) << built.error().message();
         const double expected = brute_force_area(strands, c.tip_scale);
         // Supersampling at 4 x 4 and texels as wide as a strand: 2 % in hundreds of texels.
@@ -246,8 +244,7 @@ TEST(CardBakeTest, TheNearerStrandIsSeen) {
 TEST(CardBuildTest, TheSameBytesOnAnyNumberOfCores) {
     const StrandData strands = strands_of(head_of_locks(12, 40), kWidth);
     auto first = build_cards(strands, {.cards = 24});
-    const oneapi::tbb::global_control one(
-        oneapi::tbb::global_control::max_allowed_parallelism, 1);
+    const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
     auto second = build_cards(strands, {.cards = 24});
     ASSERT_TRUE(first && second);
     EXPECT_EQ(first->cards.points, second->cards.points);
@@ -275,8 +272,8 @@ TEST(CardBuildTest, EveryStrandIsInTheAtlas) {
 
 TEST(CardBuildTest, TheAtlasKeepsItsLimit) {
     const StrandData strands = strands_of(head_of_locks(8, 30), kWidth);
-    auto built = build_cards(strands, {.cards = 16, .texels_per_metre = 1e5f,
-                                       .max_texels = 100'000});
+    auto built =
+        build_cards(strands, {.cards = 16, .texels_per_metre = 1e5f, .max_texels = 100'000});
     ASSERT_TRUE(built);
     // Shelves leave some of it empty.
     EXPECT_LT(built->cards.atlas.texels(), 150'000u);

@@ -37,8 +37,8 @@ class CardFileTest : public testing::Test {
         std::vector<float> values;
         for (int card = 0; card < 2; ++card) {
             const auto x = static_cast<float>(card);
-            for (const auto& [u, v] : {std::pair{0.0f, 0.0f}, {1.0f, 0.0f}, {0.0f, 1.0f},
-                                       {1.0f, 1.0f}}) {
+            for (const auto& [u, v] :
+                 {std::pair{0.0f, 0.0f}, {1.0f, 0.0f}, {0.0f, 1.0f}, {1.0f, 1.0f}}) {
                 values.insert(values.end(), {x + 0.5f * u, -v, 0.0f});
             }
         }
@@ -88,8 +88,8 @@ glm::u8vec4 half_clear(uint32_t i) {
 TEST_F(CardFileTest, WhatIsWrittenReadsBackTheSame) {
     Groom groom;
     for (uint32_t i = 0; i < 5; ++i) {
-        test::add_lock(groom, {.root = {0.05f * static_cast<float>(i), 0.3f, 0}, .bend = 0.05f},
-                       20, i + 1);
+        test::add_lock(groom, {.root = {0.05f * static_cast<float>(i), 0.3f, 0}, .bend = 0.05f}, 20,
+                       i + 1);
     }
     for (const bool colored : {false, true}) {
         if (colored) {
