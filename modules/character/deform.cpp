@@ -4,6 +4,7 @@
 #include <map>
 
 #include "engine/platform/jobs.h"
+#include "modules/light/light_set.h"
 
 namespace vellus::character {
 namespace {
@@ -150,8 +151,12 @@ void bind_meshes(
     Layout layout(*library, *columns);
     all.each([&](Entity entity, const scene::MeshInstance& instance, const scene::NodeRef* ref,
                  const MeshSlot* before) {
-        commands.add(entity, layout.add(entity, instance, ref, before));
-        if (before == nullptr) commands.add(entity, scene::WorldBounds{});
+        const MeshSlot slot = layout.add(entity, instance, ref, before);
+        commands.add(entity, slot);
+        if (before != nullptr) return;
+        commands.add(entity, scene::WorldBounds{});
+        // A character's own shadow on the ground is whole; a rigid mesh may be the ground.
+        if (slot.joint_count > 1) commands.add(entity, light::ShadowFocus{});
     });
     layout.columns.previous_weights = layout.columns.weights;
     layout.columns.palette.assign(layout.columns.joints.size(), glm::dmat4(1.0));
