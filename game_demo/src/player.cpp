@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kSpeedTime = 0.18;  ///< seconds to two thirds of a new speed
 constexpr double kTurnTime = 0.12;
+constexpr double kHighestStep = 0.4;  ///< metres up that need no jump
 
 /// Index of the animation of that name.
 Result<uint32_t> clip_named(const asset::SceneAsset& scene, const std::string& name,
@@ -69,15 +70,22 @@ Result<std::unique_ptr<Player>> Player::find(World& world) {
     player->walk_ = *walk;
     player->idle_ = *idle;
     player->clip_speed_ = extension->speed;
-    const glm::dvec3 ahead =
-        world.get<scene::LocalTransform>(found)->rotation * glm::vec3(0.0f, 0.0f, 1.0f);
-    player->heading_ = std::atan2(ahead.x, ahead.z);
+    player->ground_ = Ground(world);
     return player;
+}
+
+/// From where its parents have brought it, the node goes on alone.
+void Player::leave_the_scenes_path(World& world) {
+    moved_ = true;
+    const glm::dmat4 place = world.get<scene::WorldTransform>(node_)->matrix;
+    heading_ = std::atan2(place[2].x, place[2].z);
+    world.get<scene::LocalTransform>(node_)->translation = place[3];
+    if (world.has<scene::Parent>(node_)) world.remove<scene::Parent>(node_);
 }
 
 void Player::update(World& world, const glm::dvec3& wish, double camera_yaw, double seconds) {
     const double length = std::min(std::hypot(wish.x, wish.z), 1.0);
-    if (length > 0.0) moved_ = true;
+    if (length > 0.0 && !moved_) leave_the_scenes_path(world);
     if (!moved_ || seconds <= 0.0) return;
     if (length > 0.0) {
         // The wish turned from the camera's frame into the world's.
@@ -91,6 +99,8 @@ void Player::update(World& world, const glm::dvec3& wish, double camera_yaw, dou
     node.rotation = glm::angleAxis(static_cast<float>(heading_), glm::vec3(0.0f, 1.0f, 0.0f));
     node.translation +=
         glm::dvec3(std::sin(heading_), 0.0, std::cos(heading_)) * (speed_ * seconds);
+    const glm::dvec3& at = node.translation;
+    node.translation.y = ground_.height(at.x, at.z, at.y + kHighestStep).value_or(at.y);
     auto& clips = *world.get<character::AnimationPlayer>(instance_root_);
     const double walking = std::clamp(speed_ / clip_speed_, 0.0, 1.0);
     clips.animation = walk_;

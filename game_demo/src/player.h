@@ -6,6 +6,7 @@
 
 #include "engine/ecs/ecs.h"
 #include "engine/platform/result.h"
+#include "game_demo/src/ground.h"
 
 namespace vellus::demo {
 
@@ -20,7 +21,8 @@ struct PlayerExtension {
 /// Errors name field and remedy.
 Result<PlayerExtension> parse_player_extension(std::string_view json, const std::string& where);
 
-/// Walks a character over the ground it stands on: eases speed and heading, mixes the clips.
+/// Walks a character over the ground: eases speed and heading, mixes the clips. Until the first
+/// step the scene's own animation has it.
 class Player {
   public:
     /// The first node with VELLUS_player; null where the scene has none.
@@ -32,6 +34,9 @@ class Player {
     [[nodiscard]] glm::dvec3 position(World& world) const;
 
   private:
+    void leave_the_scenes_path(World& world);
+
+    Ground ground_;
     Entity node_ = kNoEntity;
     Entity instance_root_ = kNoEntity;
     uint32_t idle_ = 0;
@@ -39,7 +44,7 @@ class Player {
     double clip_speed_ = 1.3;
     double heading_ = 0.0;  ///< radians about +Y; 0 walks along +Z
     double speed_ = 0.0;    ///< metres a second
-    bool moved_ = false;    ///< since the scene began; until then the scene's clip plays
+    bool moved_ = false;    ///< since the scene began
 };
 
 }  // namespace vellus::demo

@@ -102,6 +102,7 @@ TEST_F(PlayerTest, TheSameSecondsLeadToTheSamePlaceAtAnyFrameRate) {
     schedule_.run(world_);
     const glm::dvec3 fine = player_->position(world_);
     *world_.get<scene::LocalTransform>(hero_) = {};
+    schedule_.run(world_);
     auto again = std::move(*Player::find(world_));
     for (int i = 0; i < 60; ++i) again->update(world_, {0.3, 0.0, -0.8}, 0.4, 0.05);
     schedule_.run(world_);
