@@ -55,6 +55,7 @@ Result<HistoryStore::Entry*> HistoryStore::entry_for(const ResourceRecord& resou
             if (!made) return made.error();
             image = std::move(*made);
             created_ += 2;
+            graveyard_.expect();
         }
     }
     entry->last_frame = frame;

@@ -1,5 +1,7 @@
 #include "engine/frame_graph/physical.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -33,10 +35,31 @@ VkBufferCreateInfo buffer_info(uint64_t bytes, uint32_t usage) {
             .sharingMode = VK_SHARING_MODE_EXCLUSIVE};
 }
 
+/// The error of a pool, with the resource that asks for most of it.
+Error with_largest(Error error, const GraphDescription& graph, const Plan& plan, const Pool& pool) {
+    const auto index = static_cast<uint32_t>(&pool - plan.pools.data());
+    const Placement* largest = nullptr;
+    for (const Placement& placement : plan.placements) {
+        if (placement.pool != index) continue;
+        if (!largest || placement.bytes > largest->bytes) largest = &placement;
+    }
+    if (!largest) return error;
+    const ResourceRecord& resource = graph.resources()[largest - plan.placements.data()];
+    error.where += fmt::format(", of which '{}' needs {:.1f} MiB", resource.name,
+                               static_cast<double>(largest->bytes) / (1 << 20));
+    return error;
+}
+
 }  // namespace
 
+void Graveyard::expect() {
+    if (++expected_ <= std::min(graves_.capacity(), images_.capacity())) return;
+    graves_.reserve(expected_ * 2);
+    images_.reserve(expected_ * 2);
+}
+
 void Graveyard::bury(uint64_t done) {
-    std::erase_if(graves_, [&](const Grave& grave) {
+    expected_ -= std::erase_if(graves_, [&](const Grave& grave) {
         if (grave.frame > done) return false;
         vkDestroyImageView(device_.handle(), grave.view, nullptr);
         vkDestroyImage(device_.handle(), grave.image, nullptr);
@@ -44,12 +67,12 @@ void Graveyard::bury(uint64_t done) {
         device_.memory().free(grave.memory);
         return true;
     });
-    std::erase_if(images_, [&](const OldImage& old) { return old.frame <= done; });
+    expected_ -= std::erase_if(images_, [&](const OldImage& old) { return old.frame <= done; });
 }
 
 Result<VkImageView> view_of(gpu::Device& device, const ImageDesc& desc, VkImage image,
                             const ImageRange& range, std::vector<ViewOfRange>& views,
-                            uint64_t& created) {
+                            Graveyard& graveyard, uint64_t& created) {
     for (const ViewOfRange& view : views) {
         if (view.range == range) return view.view;
     }
@@ -67,6 +90,7 @@ Result<VkImageView> view_of(gpu::Device& device, const ImageDesc& desc, VkImage 
         return gpu::vulkan_error(result, "view of a frame graph image");
     }
     ++created;
+    graveyard.expect();
     views.push_back({range, view});
     return view;
 }
@@ -130,6 +154,7 @@ Result<TransientHeap::Block*> TransientHeap::block_for(const Pool& pool, uint64_
     block->id = next_id_++;
     block->last_fit = frame;
     ++created_;
+    graveyard_.expect();
     return &*block;
 }
 
@@ -177,7 +202,7 @@ Result<void> TransientHeap::bind(const GraphDescription& graph, const Plan& plan
     pool_blocks_.clear();
     for (const Pool& pool : plan.pools) {
         auto block = block_for(pool, frame);
-        if (!block) return block.error();
+        if (!block) return with_largest(block.error(), graph, plan, pool);
         pool_blocks_.push_back(*block);
     }
     for (uint32_t i = 0; i < plan.placements.size(); ++i) {
@@ -194,6 +219,7 @@ Result<void> TransientHeap::bind(const GraphDescription& graph, const Plan& plan
         if (found == placed_.end()) {
             auto placed = make(resource, placement, block);
             if (!placed) return placed.error();
+            graveyard_.expect();
             found = placed_.emplace(key, std::move(*placed)).first;
         }
         Placed& placed = found->second;

@@ -26,6 +26,9 @@ class Graveyard {
         VkImageView view = VK_NULL_HANDLE;
         gpu::Allocation memory;
     };
+    /// Something was made that will be added one day: room for it is made now, as giving up what an
+    /// earlier kind of frame used falls into frames that allocate nothing.
+    void expect();
     void add(const Grave& grave) { graves_.push_back(grave); }
     void add(uint64_t frame, gpu::Image&& image) { images_.push_back({frame, std::move(image)}); }
     /// Frames up to `done` have ended.
@@ -39,6 +42,7 @@ class Graveyard {
     gpu::Device& device_;
     std::vector<Grave> graves_;
     std::vector<OldImage> images_;
+    size_t expected_ = 0;  // still in use, or here and not yet destroyed
 };
 
 struct ViewOfRange {
@@ -123,6 +127,6 @@ class TransientHeap {
 /// A view of a range, made once where `views` keeps it.
 Result<VkImageView> view_of(gpu::Device& device, const ImageDesc& desc, VkImage image,
                             const ImageRange& range, std::vector<ViewOfRange>& views,
-                            uint64_t& created);
+                            Graveyard& graveyard, uint64_t& created);
 
 }  // namespace vellus::graph

@@ -111,7 +111,8 @@ VkImageView Recorder::view(uint32_t resource, const ImageRange& range) {
     // Imported images may come and go under one handle, so views of their parts live for a frame.
     one_view_.clear();
     auto& views = physical.views ? *physical.views : one_view_;
-    const auto made = view_of(*in_.device, desc, physical.image, range, views, *in_.created);
+    const auto made =
+        view_of(*in_.device, desc, physical.image, range, views, *in_.graveyard, *in_.created);
     if (!made) {
         failure_ = VK_ERROR_OUT_OF_HOST_MEMORY;
         return VK_NULL_HANDLE;
