@@ -5,6 +5,7 @@
 
 #include "engine/frame_graph/context.h"
 #include "engine/platform/hash.h"
+#include "tests/support/failing_driver.h"
 #include "tests/support/gpu_fixture.h"
 
 namespace vellus::graph {
@@ -385,6 +386,56 @@ TEST_F(ExecutorTest, UndeclaredAccessNamesPassAndResource) {
     describe_frame(0);
     EXPECT_TRUE((*executor)->execute(graph_));
     EXPECT_TRUE((*executor)->wait());
+}
+
+TEST_F(ExecutorTest, OutOfMemoryNamesTheLargestResource) {
+    if (!test::MemoryLimit::possible()) GTEST_SKIP() << "sanitizers need all the address space";
+    if (!device().traits().is_cpu) GTEST_SKIP() << "memory runs out on a CPU device only";
+    auto executor = Executor::create(device());
+    ASSERT_TRUE(executor);
+    graph_.reset();
+    auto pass = graph_.add_pass("fill", PassKind::kCompute);
+    const ImageDesc small{gpu::Format::kRgba32Float, 16, 16};
+    const ImageDesc large{gpu::Format::kRgba32Float, 8192, 8192};
+    graph_.output(pass.write(graph_.create_image("small", small), Access::kStorageWrite));
+    graph_.output(pass.write(graph_.create_image("large", large), Access::kStorageWrite));
+    {
+        const test::MemoryLimit limit(256 << 20);
+        ASSERT_TRUE(limit.works());
+        const auto done = (*executor)->execute(graph_);
+        ASSERT_FALSE(done);
+        const std::string message = done.error().message();
+        EXPECT_NE(message.find("out of device memory"), std::string::npos) << message;
+        EXPECT_NE(message.find("'large'"), std::string::npos) << message;
+    }
+    describe_frame(0);
+    EXPECT_TRUE((*executor)->execute(graph_));
+    EXPECT_TRUE((*executor)->wait());
+}
+
+TEST_F(ExecutorTest, ALostDeviceEndsInAnError) {
+    auto executor = Executor::create(device());
+    ASSERT_TRUE(executor);
+    describe_frame(0);
+    ASSERT_TRUE((*executor)->execute(graph_));
+    {
+        const PFN_vkWaitForFences lost = [](VkDevice, uint32_t, const VkFence*, VkBool32,
+                                            uint64_t) { return VK_ERROR_DEVICE_LOST; };
+        const test::Replaced replaced(vkWaitForFences, lost);
+        const auto done = (*executor)->wait();
+        ASSERT_FALSE(done);
+        EXPECT_NE(done.error().message().find("device was lost"), std::string::npos);
+    }
+    ASSERT_TRUE((*executor)->wait());
+    const PFN_vkQueueSubmit2 lost = [](VkQueue, uint32_t, const VkSubmitInfo2*, VkFence) {
+        return VK_ERROR_DEVICE_LOST;
+    };
+    const test::Replaced replaced(vkQueueSubmit2, lost);
+    describe_frame(1);
+    const auto done = (*executor)->execute(graph_);
+    ASSERT_FALSE(done);
+    EXPECT_NE(done.error().message().find("device was lost"), std::string::npos);
+    EXPECT_NE(done.error().message().find("submitting the frame"), std::string::npos);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <vector>
 
+#include "engine/gpu/features.h"
+#include "tests/support/failing_driver.h"
 #include "tests/support/gpu_fixture.h"
 
 namespace vellus::gpu {
@@ -81,6 +83,60 @@ TEST_F(DeviceTest, ImageOfAnImpossibleSizeIsRefused) {
     ASSERT_FALSE(image);
     EXPECT_NE(image.error().message().find("too wide"), std::string::npos);
     EXPECT_FALSE(Image::create(device(), {.width = 0, .height = 1}, "empty"));
+}
+
+TEST_F(DeviceTest, OutOfMemoryNamesTheBufferAndItsSize) {
+    if (!test::MemoryLimit::possible()) GTEST_SKIP() << "sanitizers need all the address space";
+    if (!device().traits().is_cpu) GTEST_SKIP() << "memory runs out on a CPU device only";
+    ASSERT_TRUE(Buffer::create(device(), 16, MemoryKind::kDevice, "small"));
+    const test::MemoryLimit limit(256 << 20);
+    ASSERT_TRUE(limit.works());
+    const auto buffer = Buffer::create(device(), 1 << 30, MemoryKind::kDevice, "all strands");
+    ASSERT_FALSE(buffer);
+    const std::string message = buffer.error().message();
+    EXPECT_NE(message.find("out of device memory"), std::string::npos) << message;
+    EXPECT_NE(message.find("all strands (1024.0 MiB)"), std::string::npos) << message;
+    EXPECT_TRUE(Buffer::create(device(), 1 << 20, MemoryKind::kDevice, "one strand"));
+}
+
+TEST_F(DeviceTest, BufferLargerThanTheDeviceAllowsIsRefused) {
+    const uint64_t bytes = device().traits().max_buffer_bytes + 1;
+    const auto buffer = Buffer::create(device(), bytes, MemoryKind::kDevice, "too long");
+    ASSERT_FALSE(buffer);
+    EXPECT_NE(buffer.error().message().find("too long"), std::string::npos);
+    EXPECT_NE(buffer.error().message().find(std::to_string(bytes)), std::string::npos);
+}
+
+PFN_vkGetPhysicalDeviceFeatures2 real_features;
+
+TEST_F(DeviceTest, MissingFeaturesAreNamed) {
+    EXPECT_EQ(missing_features(device().physical(), false), "");
+    real_features = vkGetPhysicalDeviceFeatures2;
+    const PFN_vkGetPhysicalDeviceFeatures2 poorer = [](VkPhysicalDevice physical,
+                                                       VkPhysicalDeviceFeatures2* features) {
+        real_features(physical, features);
+        features->features.shaderInt64 = VK_FALSE;
+        auto* next = static_cast<VkBaseOutStructure*>(features->pNext);
+        while (next->sType != VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES) {
+            next = next->pNext;
+        }
+        reinterpret_cast<VkPhysicalDeviceVulkan12Features*>(next)->shaderBufferInt64Atomics =
+            VK_FALSE;
+    };
+    const test::Replaced replaced(vkGetPhysicalDeviceFeatures2, poorer);
+    EXPECT_EQ(missing_features(device().physical(), false),
+              "shaderInt64, shaderBufferInt64Atomics");
+}
+
+TEST_F(DeviceTest, ALostDeviceIsNamedWithWhatItWasDoing) {
+    const PFN_vkQueueSubmit2 lost = [](VkQueue, uint32_t, const VkSubmitInfo2*, VkFence) {
+        return VK_ERROR_DEVICE_LOST;
+    };
+    const test::Replaced replaced(vkQueueSubmit2, lost);
+    const auto done = device().submit_now("strand points", [](VkCommandBuffer) {});
+    ASSERT_FALSE(done);
+    EXPECT_NE(done.error().message().find("device was lost"), std::string::npos);
+    EXPECT_NE(done.error().message().find("strand points"), std::string::npos);
 }
 
 TEST_F(DeviceTest, FreedMemoryIsUsedAgain) {
