@@ -37,7 +37,8 @@ TEST(Install, AProgramOutsideTheTreeDrawsAGroomInFewLines) {
     ASSERT_TRUE(succeed({VELLUS_CMAKE, "--install", VELLUS_BINARY_DIR, "--prefix", prefix}));
     ASSERT_TRUE(succeed({VELLUS_CMAKE, "-S", kSource / "tests/consumer", "-B", build, "-G",
                          VELLUS_GENERATOR, "-DCMAKE_BUILD_TYPE=Release",
-                         "-DCMAKE_CXX_COMPILER=" VELLUS_CXX, "-DCMAKE_PREFIX_PATH=" + prefix}));
+                         std::string("-DCMAKE_CXX_COMPILER=") + VELLUS_CXX,
+                         "-DCMAKE_PREFIX_PATH=" + prefix}));
     ASSERT_TRUE(succeed({VELLUS_CMAKE, "--build", build}));
     ASSERT_TRUE(succeed({build + "/consumer", kSource / "assets/grooms/long.hair", picture}));
 

@@ -122,7 +122,7 @@ void add_rows(Report& report, const std::string& scene, const Samples& samples) 
 
 Result<void> write_csv(const fs::path& folder, const std::string& scene, const Samples& samples) {
     std::string text = "frame,wall_ms,cpu_ms";
-    for (const auto& [name, times] : samples.passes) text += "," + name;
+    for (const auto& [name, times] : samples.passes) text.append(",").append(name);
     text += "\n";
     for (size_t frame = 0; frame < samples.wall_ms.size(); ++frame) {
         text +=

@@ -28,6 +28,7 @@ class Process {
             ::close(pipe[0]);
             ::close(pipe[1]);
             std::vector<char*> pointers;
+            pointers.reserve(arguments.size() + 1);
             for (std::string& argument : arguments) pointers.push_back(argument.data());
             pointers.push_back(nullptr);
             ::execvp(pointers[0], pointers.data());
