@@ -13,6 +13,10 @@ namespace {
 const glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);
 /// (550 nm / λ)⁴ for red, green, blue at 610, 550, 465 nm.
 const glm::dvec3 kRayleigh(0.661, 1.0, 1.957);
+/// Vertical optical depth at 550 nm.
+constexpr double kRayleighDepth = 0.097;
+/// Sine of the elevation below which haze hides how much longer the path through clean air gets.
+constexpr double kHaze = 0.06;
 /// Width of the haze that joins sky and ground, as a sine of elevation.
 constexpr double kHorizonHaze = 0.02;
 
@@ -27,20 +31,23 @@ glm::dvec3 sun_irradiance(const Sky& sky) {
     const double air_mass =
         1.0 / (sun_direction(sky).y + 0.50572 * std::pow(elevation + 6.07995, -1.6364));
     const glm::dvec3 haze(0.087, 0.1, 0.124);  // aerosol 0.1 at 550 nm, Ångström exponent 1.3
-    const glm::dvec3 color = glm::exp(-(0.097 * kRayleigh + haze) * air_mass);
+    const glm::dvec3 color = glm::exp(-(kRayleighDepth * kRayleigh + haze) * air_mass);
     return color * (sky.sun_irradiance / glm::dot(color, kLuminance));
 }
 
 /// Radiance above the horizon, not yet scaled.
 glm::dvec3 clear_sky(const glm::dvec3& direction, const glm::dvec3& to_sun) {
     const double cos_zenith = std::max(direction.y, 1.0e-3);
-    const glm::dvec3 gradation = 1.0 - glm::exp(-0.32 / cos_zenith * kRayleigh);
+    const double gradation = 1.0 - std::exp(-0.32 / cos_zenith);
+    // What a clean atmosphere scatters once towards the ground.
+    const glm::dvec3 scattered =
+        1.0 - glm::exp(-kRayleighDepth / std::max(cos_zenith, kHaze) * kRayleigh);
     const double cos_sun = std::clamp(glm::dot(direction, to_sun), -1.0, 1.0);
     const double angle = std::acos(cos_sun);
     const double indicatrix = 1.0 +
                               10.0 * (std::exp(-3.0 * angle) - std::exp(-1.5 * std::numbers::pi)) +
                               0.45 * cos_sun * cos_sun;
-    return gradation * indicatrix;
+    return scattered * (gradation * indicatrix / glm::dot(scattered, kLuminance));
 }
 
 /// Irradiance of clear_sky on the ground; midpoint rule, good to 0.1 %.

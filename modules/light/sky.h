@@ -30,9 +30,9 @@ struct SunLight {
 /// Kasten and Young 1989), scaled to Sky::sun_irradiance.
 SunLight sky_sun(const Sky& sky);
 
-/// The sky without the sun's disc as an equirectangular image. CIE standard clear sky, type 12
-/// (Darula and Kittler 2002), its gradation 1 - e^(-0.32 / cos Z) taken per channel with Rayleigh's
-/// λ⁻⁴, which gives the blue zenith and white horizon; below, the ground as sun and sky light it.
+/// The sky without the sun's disc as an equirectangular image. Luminance is that of the CIE standard
+/// clear sky, type 12 (Darula and Kittler 2002); colour that of light scattered once by clean air
+/// (Rayleigh, λ⁻⁴): blue above, white at the horizon; below, the ground as sun and sky light it.
 asset::ImageF render_sky(const Sky& sky, uint32_t width, uint32_t height);
 
 }  // namespace vellus::light
