@@ -80,16 +80,6 @@ std::array<float, 256> srgb_table() {
     return table;
 }
 
-ImageF to_linear(const Image& image) {
-    static const std::array<float, 256> kLinear = srgb_table();
-    ImageF result{image.width, image.height, std::vector<float>(image.rgba.size()), {}};
-    for (size_t i = 0; i < image.rgba.size(); ++i) {
-        const uint8_t code = image.rgba[i];
-        result.rgba[i] = i % 4 == 3 ? static_cast<float>(code) / 255.0f : kLinear[code];
-    }
-    return result;
-}
-
 /// Reads `path` and decodes it; errors name the file.
 template <class T, class Decode>
 Result<T> load(const std::filesystem::path& path, Decode decode) {
@@ -112,6 +102,16 @@ Result<void> save(const std::filesystem::path& path, const Result<std::vector<st
 }
 
 }  // namespace
+
+ImageF to_linear(const Image& image) {
+    static const std::array<float, 256> kLinear = srgb_table();
+    ImageF result{image.width, image.height, std::vector<float>(image.rgba.size()), {}};
+    for (size_t i = 0; i < image.rgba.size(); ++i) {
+        const uint8_t code = image.rgba[i];
+        result.rgba[i] = i % 4 == 3 ? static_cast<float>(code) / 255.0f : kLinear[code];
+    }
+    return result;
+}
 
 Result<Image> load_image(const std::filesystem::path& path) {
     return load<Image>(path, [](std::span<const std::byte> bytes) { return decode_image(bytes); });

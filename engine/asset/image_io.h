@@ -18,6 +18,9 @@ constexpr uint64_t kMaxImagePixels = uint64_t{1} << 27U;
 Result<Image> load_image(const std::filesystem::path& path);
 Result<Image> decode_image(std::span<const std::byte> bytes, uint64_t max_pixels = kMaxImagePixels);
 
+/// Colours decoded from sRGB.
+ImageF to_linear(const Image& image);
+
 /// Radiance .hdr, OpenEXR, PNG or JPEG (told apart by content) as linear RGBA. Every value that
 /// comes back is finite and >= 0: NaN and negative values become 0, infinity becomes 65504 (the
 /// largest half); ImageF counts them.
