@@ -7,8 +7,8 @@ namespace vellus::demo {
 /// A bar on stderr that says how far a long run is; silent where stderr is no terminal.
 class Progress {
   public:
-    /// `unit`: what is counted.
-    explicit Progress(uint32_t total, const char* unit = "frames");
+    /// `unit`: what is counted; `first` of them were done before.
+    explicit Progress(uint32_t total, const char* unit = "frames", uint32_t first = 0);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -18,6 +18,7 @@ class Progress {
   private:
     uint32_t total_;
     const char* unit_;
+    uint32_t first_;
     double start_;
     bool visible_;
 };

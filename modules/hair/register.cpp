@@ -9,20 +9,24 @@
 
 namespace vellus::hair {
 
-void register_hair(World& world, Schedule& schedule) {
+void register_hair_columns(World& world, Schedule& schedule) {
     world.insert_resource(HairLibrary{});
-    world.insert_resource(HairFrame{});
-    world.insert_resource(HairPipelines{});
-    world.insert_resource(FibreLibrary{});
-    world.insert_resource(HairShadowMaps{});
     world.insert_resource(HairBindings{});
     world.insert_resource(HairPoses{});
-    world.insert_resource(HairDeformation{});
     if (world.find_resource<character::DeformColumns>() == nullptr) {
         world.emplace_resource<character::DeformColumns>();
     }
     schedule.add(update_hair_bounds).in(scene::kTransforms).after(scene::propagate_transforms);
     schedule.add(pose_hair).in(scene::kView);
+}
+
+void register_hair(World& world, Schedule& schedule) {
+    register_hair_columns(world, schedule);
+    world.insert_resource(HairFrame{});
+    world.insert_resource(HairPipelines{});
+    world.insert_resource(FibreLibrary{});
+    world.insert_resource(HairShadowMaps{});
+    world.insert_resource(HairDeformation{});
     schedule.add(gather_hair)
         .in(scene::kGather)
         .after(light::gather_lights)
