@@ -65,6 +65,8 @@ class Process {
         running_ = false;
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
+    /// As Ctrl-C does.
+    void interrupt() const { ::kill(child_, SIGINT); }
     [[nodiscard]] const std::string& output() const { return output_; }
 
   private:
