@@ -1,10 +1,13 @@
 #include "assets/generator/asset_files.h"
 
-#include <glm/glm.hpp>
 #include <span>
 
 #include "assets/generator/bust_mesh.h"
+#include "assets/generator/crowd_scene.h"
 #include "assets/generator/figure_mesh.h"
+#include "assets/generator/fox.h"
+#include "assets/generator/fur_scene.h"
+#include "assets/generator/groom_of.h"
 #include "assets/generator/hair_style.h"
 #include "assets/generator/portrait.h"
 #include "assets/generator/walk_scene.h"
@@ -12,28 +15,9 @@
 
 namespace vellus::sculpt {
 
-namespace {
-
-/// Strands as the .hair format has them: centimetres, Z up, so the face looks along -Y.
-hair::Groom to_groom(const std::vector<Strand>& strands, float thickness, const char* info) {
-    hair::Groom groom;
-    groom.format = hair::GroomFormat::kHair;
-    groom.default_thickness = thickness;
-    groom.info = info;
-    for (const Strand& strand : strands) {
-        for (const glm::dvec3 p : strand) {
-            groom.points.emplace_back(glm::dvec3(p.x, -p.z, p.y) * 100.0);
-        }
-        groom.strand_begin.push_back(static_cast<uint32_t>(groom.points.size()));
-    }
-    return groom;
-}
-
-}  // namespace
-
 Result<std::vector<AssetFile>> make_asset_files() {
     std::vector<AssetFile> files;
-    const auto add_groom = [&](const char* path, const hair::Groom& groom) -> Result<void> {
+    const auto add_groom = [&](const std::string& path, const hair::Groom& groom) -> Result<void> {
         Result<std::vector<std::byte>> bytes = hair::write_hair(groom);
         if (!bytes) {
             return bytes.error();
@@ -53,8 +37,8 @@ Result<std::vector<AssetFile>> make_asset_files() {
         {"grooms/long.hair", to_groom(grow_hair(), 0.009F, "Long hair")},
         {"grooms/brows.hair", to_groom(grow_brows(), 0.011F, "Brows, lashes")},
         {"grooms/walk.hair",
-         to_groom(grow_hair({.directions = 6'000, .points = 13, .length = 0.72}), 0.03F,
-                  "Shoulder-length hair")},
+         to_groom(grow_hair({.directions = 7'500, .points = 14, .length = 0.80}), 0.03F,
+                  "Hair over the shoulders")},
     };
     for (const Grown& grown : grooms) {
         if (auto added = add_groom(grown.path, grown.groom); !added) {
@@ -64,9 +48,30 @@ Result<std::vector<AssetFile>> make_asset_files() {
     Portrait portrait = make_portrait(make_bust());
     add_text("scenes/portrait.gltf", portrait.json);
     files.push_back({"scenes/portrait.bin", std::move(portrait.buffer)});
-    const GltfScene walk = make_walk_scene(make_figure(false));
-    add_text("scenes/walk.gltf", walk.json());
-    files.push_back({"scenes/walk.bin", walk.buffer()});
+    const auto add_scene = [&](const GltfScene& scene) {
+        add_text("scenes/" + scene.name() + ".gltf", scene.json());
+        files.push_back({"scenes/" + scene.name() + ".bin", scene.buffer()});
+    };
+    add_scene(make_walk_scene(make_figure(false)));
+    const std::vector<SkinnedPart> people = make_figure(true);
+    add_scene(make_crowd_scene(people));
+    auto crowd_hair = grow_crowd_hair(people[0], people[1]);
+    if (!crowd_hair) {
+        return crowd_hair.error();
+    }
+    const std::vector<SkinnedPart> fox = make_fox();
+    add_scene(make_fur_scene(fox));
+    Fur fur = grow_fox_fur(fox[0]);
+    hair::Groom fox_groom = to_groom(fur.strands, 0.16F, "Fur of a fox");
+    fox_groom.colors = std::move(fur.colors);
+    if (auto added = add_groom("grooms/fox.hair", fox_groom); !added) {
+        return added.error();
+    }
+    for (const CrowdGroom& grown : *crowd_hair) {
+        if (auto added = add_groom("grooms/" + grown.file, grown.groom); !added) {
+            return added.error();
+        }
+    }
     return files;
 }
 

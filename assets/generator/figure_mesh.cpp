@@ -62,14 +62,15 @@ SkinnedPart eyes() {
 }  // namespace
 
 std::vector<PartRecipe> figure_recipes(bool far_away) {
-    const size_t divisor = far_away ? 3 : 1;
+    const size_t divisor = far_away ? 2 : 1;
     std::vector<PartRecipe> recipes;
     const auto add = [&](const char* name, Grid grid, double (*field)(dvec3), dvec3 (*color)(dvec3),
                          size_t triangles, dvec3 base, double roughness) {
         recipes.push_back({name, std::move(grid), field, color, figure_influences,
                            triangles / divisor, base, roughness});
     };
-    add("skin", skin_grid(), figure_skin, figure_skin_color, 5'200, dvec3(1.0), 0.55);
+    add("skin", skin_grid(), figure_skin, figure_skin_color, far_away ? 8'000 : 5'200, dvec3(1.0),
+        0.55);
     add("shirt", even_grid({-0.330, 0.860, -0.160}, {0.330, 1.430, 0.160}, 0.0085), figure_shirt,
         shirt_shade, 2'300, {0.36, 0.085, 0.060}, 0.9);
     add("trousers", even_grid({-0.220, 0.030, -0.160}, {0.220, 1.020, 0.140}, 0.0090),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace vellus::sculpt {
 
@@ -58,11 +59,6 @@ glm::dquat facing(dvec3 direction) {
     const dvec3 z = -glm::normalize(direction);
     const dvec3 x = glm::normalize(glm::cross(dvec3(0.0, 1.0, 0.0), z));
     return glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z)));
-}
-
-Json groom_transform() {
-    constexpr double kHalf = 0.70710678118654752;
-    return {{"rotation", {-kHalf, 0.0, 0.0, kHalf}}, {"scale", {0.01, 0.01, 0.01}}};
 }
 
 GltfScene::GltfScene(std::string name) : name_(std::move(name)) {}
@@ -167,15 +163,17 @@ size_t GltfScene::add_skin(const Rig& rig) {
 }
 
 void GltfScene::add_clip(const std::string& name, std::span<const double> times,
-                         std::span<const Track> tracks, Json extras) {
+                         std::span<const Track> tracks) {
     const std::vector<float> keys(times.begin(), times.end());
     const size_t input =
         buffer_.add(std::span<const float>(keys), kFloat, "SCALAR", GltfBuffer::kNone);
     buffer_.set_range(input, {keys.front()}, {keys.back()});
     Json samplers = Json::array();
     Json channels = Json::array();
-    const auto add_channel = [&](Node node, const char* path, size_t output) {
-        samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
+    const auto add_channel = [&](Node node, const char* path, size_t output,
+                                 const char* interpolation = "LINEAR") {
+        samplers.push_back(
+            {{"input", input}, {"output", output}, {"interpolation", interpolation}});
         channels.push_back(
             {{"sampler", samplers.size() - 1}, {"target", {{"node", node}, {"path", path}}}});
     };
@@ -189,6 +187,17 @@ void GltfScene::add_clip(const std::string& name, std::span<const double> times,
                         buffer_.add(std::span<const glm::i16vec4>(values), kInt16, "VEC4",
                                     GltfBuffer::kNone, true));
         }
+        if (!track.waypoints.empty()) {
+            std::vector<glm::vec3> values;
+            for (const Waypoint& at : track.waypoints) {
+                values.insert(values.end(), {glm::vec3(at.velocity), glm::vec3(at.position),
+                                             glm::vec3(at.velocity)});
+            }
+            add_channel(
+                track.node, "translation",
+                buffer_.add(std::span<const glm::vec3>(values), kFloat, "VEC3", GltfBuffer::kNone),
+                "CUBICSPLINE");
+        }
         if (!track.translations.empty()) {
             const std::vector<glm::vec3> values(track.translations.begin(),
                                                 track.translations.end());
@@ -197,18 +206,14 @@ void GltfScene::add_clip(const std::string& name, std::span<const double> times,
                 buffer_.add(std::span<const glm::vec3>(values), kFloat, "VEC3", GltfBuffer::kNone));
         }
     }
-    Json clip = {{"name", name}, {"channels", channels}, {"samplers", samplers}};
-    if (!extras.is_null()) {
-        clip["extras"] = std::move(extras);
-    }
-    clips_.push_back(std::move(clip));
+    clips_.push_back({{"name", name}, {"channels", channels}, {"samplers", samplers}});
 }
 
 std::vector<Track> GltfScene::tracks_of(const Rig& rig, size_t keys,
                                         const std::function<Pose(size_t)>& pose) {
     std::vector<Track> tracks;
     for (const Node node : rig.nodes) {
-        tracks.push_back({node, {}, {}});
+        tracks.push_back({node, {}, {}, {}});
     }
     for (size_t key = 0; key <= keys; ++key) {
         const Pose at = pose(key);
@@ -225,6 +230,15 @@ std::vector<Track> GltfScene::tracks_of(const Rig& rig, size_t keys,
     return tracks;
 }
 
+Node GltfScene::add_ground(const Ground& ground) {
+    const SkinnedPart part = make_ground(ground);
+    Json lawn = add_geometry(part);
+    lawn["material"] = add_material(part.name, part.base_color, part.roughness);
+    return add_node({{"name", part.name},
+                     {"translation", list(ground.center)},
+                     {"mesh", add_mesh(part.name, Json::array({lawn}))}});
+}
+
 Node GltfScene::add_camera(dvec3 eye, dvec3 target, double vertical_fov, Node parent) {
     cameras_.push_back(
         {{"type", "perspective"}, {"perspective", {{"yfov", vertical_fov}, {"znear", 0.05}}}});
@@ -232,6 +246,21 @@ Node GltfScene::add_camera(dvec3 eye, dvec3 target, double vertical_fov, Node pa
                      {"translation", list(eye)},
                      {"rotation", list(facing(target - eye))},
                      {"camera", cameras_.size() - 1}},
+                    parent);
+}
+
+Node GltfScene::add_hair(const std::string& name, const std::string& groom, dvec3 place, Json look,
+                         Node parent) {
+    // Undoes what to_groom() did: the groom is Z up in centimetres.
+    constexpr double kHalf = 0.70710678118654752;
+    Json hair = {
+        {"groom", "../grooms/" + groom},
+        {"upright", false},
+        {"transform", {{"rotation", {-kHalf, 0.0, 0.0, kHalf}}, {"scale", {0.01, 0.01, 0.01}}}}};
+    hair.update(look);
+    return add_node({{"name", name},
+                     {"translation", list(place)},
+                     {"extensions", {{"VELLUS_hair", std::move(hair)}}}},
                     parent);
 }
 
@@ -248,7 +277,15 @@ Node GltfScene::add_sun(dvec3 to_sun, dvec3 color, double intensity) {
 
 std::string GltfScene::json() const {
     Json gltf = {{"asset", {{"version", "2.0"}, {"generator", "vellus_make_assets"}}}};
-    gltf["extensionsUsed"] = {"KHR_lights_punctual", "KHR_mesh_quantization", "VELLUS_hair"};
+    std::set<std::string> used = {"KHR_lights_punctual", "KHR_mesh_quantization"};
+    for (const Json& node : nodes_) {
+        if (node.contains("extensions")) {
+            for (const auto& [extension, value] : node["extensions"].items()) {
+                used.insert(extension);
+            }
+        }
+    }
+    gltf["extensionsUsed"] = used;
     gltf["extensionsRequired"] = {"KHR_mesh_quantization"};
     gltf["scene"] = 0;
     gltf["scenes"] = Json::array({{{"name", name_}, {"nodes", roots_}}});

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assets/generator/gltf_buffer.h"
+#include "assets/generator/ground.h"
 #include "assets/generator/part.h"
 #include "assets/generator/skeleton.h"
 
@@ -32,11 +33,19 @@ struct Rig {
     std::vector<Node> nodes;
 };
 
-/// What a clip does to one node: a rotation or a place for each key.
+/// A place, and the speed there in metres a second.
+struct Waypoint {
+    glm::dvec3 position;
+    glm::dvec3 velocity;
+};
+
+/// What a clip does to one node, key by key: a rotation, a place; waypoints are joined by cubics
+/// instead of straight lines.
 struct Track {
     Node node;
     std::vector<glm::dquat> rotations;
     std::vector<glm::dvec3> translations;
+    std::vector<Waypoint> waypoints;
 };
 
 /// A glTF scene while it is put together.
@@ -53,15 +62,21 @@ class GltfScene {
     size_t add_mesh(const std::string& name, Json primitives);
     /// A skin of the rig, whose joints are at rest where the model was sculpted.
     size_t add_skin(const Rig& rig);
-    /// Linear keys at these times in seconds, increasing.
+    /// Keys at these times in seconds, increasing.
     void add_clip(const std::string& name, std::span<const double> times,
-                  std::span<const Track> tracks, Json extras = nullptr);
+                  std::span<const Track> tracks);
     /// Joint tracks of a clip whose keys are `pose(0)` to `pose(keys)`.
     static std::vector<Track> tracks_of(const Rig& rig, size_t keys,
                                         const std::function<Pose(size_t)>& pose);
+    Node add_ground(const Ground& ground);
     Node add_camera(glm::dvec3 eye, glm::dvec3 target, double vertical_fov, Node parent = kNoNode);
+    /// A groom beside the scene, made by to_groom(): where sculpting space lies in the node's. The
+    /// extension's other fields come from `look`.
+    Node add_hair(const std::string& name, const std::string& groom, glm::dvec3 place, Json look,
+                  Node parent);
     Node add_sun(glm::dvec3 to_sun, glm::dvec3 color, double intensity);
 
+    [[nodiscard]] const std::string& name() const { return name_; }
     /// The .gltf text and its buffer, called NAME.bin.
     [[nodiscard]] std::string json() const;
     [[nodiscard]] const std::vector<std::byte>& buffer() const { return buffer_.bytes(); }
@@ -78,8 +93,5 @@ class GltfScene {
     Json cameras_ = Json::array();
     Json lights_ = Json::array();
 };
-
-/// Undoes what to_groom() does: a groom is Z up in centimetres.
-Json groom_transform();
 
 }  // namespace vellus::sculpt

@@ -11,6 +11,8 @@ struct Ground {
     double path_width = 1.3;
     /// Where the lawn ends, in metres from the origin.
     double reach = 70.0;
+    /// Where the scene has the origin.
+    glm::dvec3 center{0.0};
 };
 
 /// Metres; 0 on the path and near it.

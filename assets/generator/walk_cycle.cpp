@@ -202,8 +202,8 @@ Pose idle_pose(double phase) {
     at(kChest) = tilt(-1.0 - 0.7 * breath, -1.5, 0.8);
     at(kNeck) = tilt(2.0, 6.0 * sine(phase + 0.2), 0.5);
     at(kHead) = tilt(-1.0 + 1.5 * sine(phase), 9.0 * sine(phase + 0.17), 1.0);
-    set_arm(pose, kLeftShoulder, 1.0, 2.0 + breath, 12.0, 0.16);
-    set_arm(pose, kRightShoulder, -1.0, 4.0 + breath, 16.0, 0.18);
+    set_arm(pose, kLeftShoulder, 1.0, 2.0 + breath, 12.0, 0.095);
+    set_arm(pose, kRightShoulder, -1.0, 4.0 + breath, 16.0, 0.105);
     return pose;
 }
 

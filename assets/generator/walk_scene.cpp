@@ -1,7 +1,6 @@
 #include "assets/generator/walk_scene.h"
 
 #include "assets/generator/figure.h"
-#include "assets/generator/ground.h"
 #include "assets/generator/trigonometry.h"
 
 namespace vellus::sculpt {
@@ -22,41 +21,41 @@ std::vector<double> key_times(size_t keys, double seconds) {
     return times;
 }
 
-/// A lap: the path's node turns at an even rate, the figure on it takes its strides.
-void add_lap(GltfScene& scene, const Rig& rig, Node path) {
+/// A lap: the figure goes round at an even speed and takes its strides.
+void add_lap(GltfScene& scene, const Rig& rig, Node person) {
     const Gait gait = lap_gait();
+    const double speed = gait.stride_metres / gait.stride_seconds;
     const size_t keys = kStrideKeys * kLapStrides;
     auto tracks = GltfScene::tracks_of(rig, keys, [&](size_t key) {
         return walk_pose(gait, static_cast<double>(key % kStrideKeys) / kStrideKeys);
     });
-    Track turn{path, {}, {}};
+    Track way{person, {}, {}, {}};
     for (size_t key = 0; key <= keys; ++key) {
-        turn.rotations.push_back(turn_about(
-            {0.0, 1.0, 0.0}, 360.0 * static_cast<double>(key) / static_cast<double>(keys)));
+        const double lap = static_cast<double>(key) / static_cast<double>(keys);
+        const glm::dquat heading = turn_about({0.0, 1.0, 0.0}, 360.0 * lap);
+        way.rotations.push_back(heading);
+        way.waypoints.push_back(
+            {heading * dvec3(-gait.turn_radius, 0.0, 0.0), heading * dvec3(0.0, 0.0, speed)});
     }
-    tracks.push_back(std::move(turn));
+    tracks.push_back(std::move(way));
     scene.add_clip("stroll", key_times(keys, gait.stride_seconds * kLapStrides), tracks);
 }
 
 void add_clips_in_place(GltfScene& scene, const Rig& rig) {
     const Gait gait;
-    scene.add_clip(
-        "walk", key_times(kStrideKeys, gait.stride_seconds),
-        GltfScene::tracks_of(
-            rig, kStrideKeys,
-            [&](size_t key) { return walk_pose(gait, static_cast<double>(key) / kStrideKeys); }),
-        {{"metres_per_second", gait.stride_metres / gait.stride_seconds}});
+    const auto step = [&](size_t key) {
+        return walk_pose(gait, static_cast<double>(key) / kStrideKeys);
+    };
+    const auto stand = [](size_t key) { return idle_pose(static_cast<double>(key) / kIdleKeys); };
+    scene.add_clip("walk", key_times(kStrideKeys, gait.stride_seconds),
+                   GltfScene::tracks_of(rig, kStrideKeys, step));
     scene.add_clip("idle", key_times(kIdleKeys, kIdleSeconds),
-                   GltfScene::tracks_of(rig, kIdleKeys, [](size_t key) {
-                       return idle_pose(static_cast<double>(key) / kIdleKeys);
-                   }));
+                   GltfScene::tracks_of(rig, kIdleKeys, stand));
 }
 
-Json hair_extension() {
-    return {{"groom", "../grooms/walk.hair"},
-            {"upright", false},
-            {"transform", groom_transform()},
-            {"width", {{"root", 0.00030}, {"tip_scale", 0.4}}},
+Json hair_look(Node body) {
+    return {{"width", {{"root", 0.00026}, {"tip_scale", 0.4}}},
+            {"binding", {{"mesh", body}}},
             {"material",
              {{"melanin", {{"eumelanin", 0.85}, {"pheomelanin", 0.42}}},
               {"color_variation", 0.2},
@@ -75,15 +74,16 @@ Gait lap_gait() {
 GltfScene make_walk_scene(const std::vector<SkinnedPart>& figure) {
     GltfScene scene("walk");
     const double radius = lap_gait().turn_radius;
-    const Node path = scene.add_node({{"name", "path"}});
-    // On the path's right-hand side seen from its middle, walking along +Z.
+    const Gait gait;
     const Node person =
-        scene.add_node({{"name", "person"}, {"translation", {-radius, 0.0, 0.0}}}, path);
+        scene.add_node({{"name", "person"},
+                        {"translation", {-radius, 0.0, 0.0}},
+                        {"extensions",
+                         {{"VELLUS_player",
+                           {{"idle", "idle"},
+                            {"walk", "walk"},
+                            {"speed", gait.stride_metres / gait.stride_seconds}}}}}});
     const Rig rig = scene.add_rig(figure_joints(), person);
-    scene.add_node({{"name", "hair"},
-                    {"translation", list(kHeadMiddle - figure_joints()[kHead].position)},
-                    {"extensions", {{"VELLUS_hair", hair_extension()}}}},
-                   rig.nodes[kHead]);
 
     Json primitives = Json::array();
     for (const SkinnedPart& part : figure) {
@@ -92,19 +92,17 @@ GltfScene make_walk_scene(const std::vector<SkinnedPart>& figure) {
         primitives.push_back(std::move(primitive));
     }
     const size_t skin = scene.add_skin(rig);
-    scene.add_node({{"name", "body"},
-                    {"mesh", scene.add_mesh("figure", std::move(primitives))},
-                    {"skin", skin}});
+    const Node body = scene.add_node({{"name", "body"},
+                                      {"mesh", scene.add_mesh("figure", std::move(primitives))},
+                                      {"skin", skin}});
+    scene.add_hair("hair", "walk.hair", kHeadMiddle - figure_joints()[kHead].position,
+                   hair_look(body), rig.nodes[kHead]);
 
-    const SkinnedPart ground = make_ground({.path_radius = radius});
-    Json lawn = scene.add_geometry(ground);
-    lawn["material"] = scene.add_material(ground.name, ground.base_color, ground.roughness);
-    scene.add_node({{"name", "ground"}, {"mesh", scene.add_mesh("ground", Json::array({lawn}))}});
-
+    scene.add_ground({.path_radius = radius});
     scene.add_camera({1.00, 1.02, 2.75}, {0.05, 0.83, 0.05}, 0.68, person);
     // Where the default sky has its sun.
     scene.add_sun({0.45, 0.62, 0.64}, {1.0, 0.93, 0.82}, 3.2);
-    add_lap(scene, rig, path);
+    add_lap(scene, rig, person);
     add_clips_in_place(scene, rig);
     return scene;
 }

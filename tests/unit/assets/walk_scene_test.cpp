@@ -68,7 +68,7 @@ TEST(Assets, AreAFewMegabytes) {
             bytes += file.file_size();
         }
     }
-    EXPECT_LT(bytes, 9'000'000U);
+    EXPECT_LT(bytes, 9'500'000U);
 }
 
 }  // namespace

@@ -1,0 +1,122 @@
+#include "assets/generator/crowd_scene.h"
+
+#include <array>
+
+#include "assets/generator/figure.h"
+#include "assets/generator/ground.h"
+#include "assets/generator/random.h"
+#include "assets/generator/trigonometry.h"
+#include "assets/generator/walk_cycle.h"
+
+namespace vellus::sculpt {
+
+namespace {
+
+using glm::dvec3;
+
+constexpr size_t kKeys = 48;
+constexpr double kSeconds = 8.0;
+
+struct Person {
+    double x, z, yaw, scale;
+    dvec3 skin, shirt, trousers;
+    double eumelanin, pheomelanin;
+    /// Diameter of a strand at the root in metres.
+    double width;
+};
+
+// From the front row's left to the back row's right.
+// clang-format off
+constexpr std::array<Person, 9> kPeople = {{
+    {-0.80, 0.55, 16.0, 1.00, {1.0, 1.0, 1.0}, {0.10, 0.25, 0.30}, {0.16, 0.14, 0.13}, 0.5, 1.1, 0.0008},
+    {0.02, 0.80, -4.0, 0.97, {0.62, 0.50, 0.42}, {0.72, 0.55, 0.16}, {0.05, 0.08, 0.15}, 3.2, 0.3, 0.0012},
+    {0.82, 0.50, -20.0, 1.03, {1.0, 0.97, 0.94}, {0.36, 0.08, 0.10}, {0.35, 0.30, 0.24}, 0.28, 0.18, 0.0008},
+    {-2.05, -0.75, 22.0, 0.98, {0.95, 0.90, 0.80}, {0.55, 0.55, 0.58}, {0.03, 0.03, 0.04}, 6.0, 0.1, 0.0012},
+    {-0.75, -0.80, 8.0, 1.02, {0.85, 0.76, 0.70}, {0.45, 0.16, 0.30}, {0.08, 0.12, 0.22}, 1.5, 0.4, 0.0012},
+    {0.50, -0.72, -8.0, 1.04, {0.36, 0.27, 0.22}, {0.12, 0.32, 0.14}, {0.28, 0.25, 0.20}, 7.0, 0.1, 0.0024},
+    {1.90, -0.95, -24.0, 1.05, {0.98, 0.92, 0.88}, {0.10, 0.12, 0.30}, {0.14, 0.13, 0.12}, 0.10, 0.02, 0.0022},
+    {-1.72, -2.60, 14.0, 0.96, {1.0, 0.95, 0.90}, {0.75, 0.70, 0.62}, {0.20, 0.07, 0.07}, 0.45, 0.35, 0.0015},
+    {0.15, -2.90, -2.0, 1.06, {0.75, 0.64, 0.55}, {0.08, 0.30, 0.42}, {0.05, 0.06, 0.07}, 2.4, 0.5, 0.0024},
+}};
+// clang-format on
+
+/// Each breathes and looks about at a moment of their own; every other one stands the other way
+/// round.
+Pose pose_of(size_t person, double phase) {
+    const auto key = static_cast<uint32_t>(person);
+    Pose pose = idle_pose(phase + random(key, 101));
+    const auto turn = [&](int joint, glm::dquat by) {
+        glm::dquat& q = pose.rotations[static_cast<size_t>(joint)];
+        q = by * q;
+    };
+    turn(kNeck, tilt(2.0 * spread(key, 102), 6.0 * spread(key, 103), 3.0 * spread(key, 104)));
+    turn(kHead, tilt(2.0 * spread(key, 105), 7.0 * spread(key, 106), 3.0 * spread(key, 107)));
+    turn(kLeftForearm,
+         turn_about(glm::cross(arm_direction(), dvec3(0.0, 0.0, 1.0)), 25.0 * random(key, 108)));
+    return pose;
+}
+
+std::vector<Track> add_person(GltfScene& scene, size_t index, const std::vector<Json>& geometry,
+                              const std::vector<size_t>& shared_materials) {
+    const Person& who = kPeople[index];
+    const std::string number = std::to_string(index + 1);
+    const Node node = scene.add_node({{"name", "person_" + number},
+                                      {"translation", {who.x, 0.0, who.z}},
+                                      {"rotation", list(turn_about({0.0, 1.0, 0.0}, who.yaw))},
+                                      {"scale", {who.scale, who.scale, who.scale}}});
+    const Rig rig = scene.add_rig(figure_joints(), node, number + "_");
+    scene.add_hair("hair_" + number, "crowd_" + number + ".hair",
+                   kHeadMiddle - figure_joints()[kHead].position,
+                   {{"width", {{"root", who.width}, {"tip_scale", 0.45}}},
+                    {"material",
+                     {{"melanin", {{"eumelanin", who.eumelanin}, {"pheomelanin", who.pheomelanin}}},
+                      {"color_variation", 0.2},
+                      {"roughness", 0.32}}}},
+                   rig.nodes[kHead]);
+    const std::array<size_t, 5> materials = {
+        scene.add_material("skin_" + number, who.skin, 0.55),
+        scene.add_material("shirt_" + number, who.shirt, 0.9),
+        scene.add_material("trousers_" + number, who.trousers, 0.9), shared_materials[0],
+        shared_materials[1]};
+    Json primitives = Json::array();
+    for (size_t part = 0; part < geometry.size(); ++part) {
+        primitives.push_back(geometry[part]);
+        primitives.back()["material"] = materials[part];
+    }
+    const size_t skin = scene.add_skin(rig);
+    scene.add_node({{"name", "body_" + number},
+                    {"mesh", scene.add_mesh("figure_" + number, std::move(primitives))},
+                    {"skin", skin}});
+    return GltfScene::tracks_of(
+        rig, kKeys, [&](size_t key) { return pose_of(index, static_cast<double>(key) / kKeys); });
+}
+
+}  // namespace
+
+GltfScene make_crowd_scene(const std::vector<SkinnedPart>& figure) {
+    GltfScene scene("crowd");
+    std::vector<Json> geometry;
+    for (const SkinnedPart& part : figure) {
+        geometry.push_back(scene.add_geometry(part));
+    }
+    const std::vector<size_t> shared = {
+        scene.add_material("shoes", figure[3].base_color, figure[3].roughness),
+        scene.add_material("eyes", figure[4].base_color, figure[4].roughness)};
+    std::vector<Track> tracks;
+    for (size_t person = 0; person < kPeople.size(); ++person) {
+        for (Track& track : add_person(scene, person, geometry, shared)) {
+            tracks.push_back(std::move(track));
+        }
+    }
+    scene.add_ground({.path_radius = 5.0, .path_width = 1.6, .center = {0.0, 0.0, 1.2}});
+    scene.add_camera({0.35, 1.50, 3.30}, {0.02, 1.08, -0.60}, 0.70);
+    scene.add_sun({0.45, 0.62, 0.64}, {1.0, 0.93, 0.82}, 3.2);
+    std::vector<double> times;
+    for (size_t key = 0; key <= kKeys; ++key) {
+        times.push_back(kSeconds * static_cast<double>(key) / kKeys);
+    }
+    scene.add_clip("idle", times, tracks);
+    return scene;
+}
+
+}  // namespace vellus::sculpt
