@@ -15,9 +15,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kFar = std::numeric_limits<double>::infinity();
-constexpr uint32_t kRouletteFrom = 4;  // scattering events that are always followed
-constexpr double kMostLikely = 0.98;   // of going on, so that a lossless path ends too
-constexpr double kOwnWidths = 2.5;  // chords through a strand are at most two radii / cos θ long
+constexpr double kMostLikely = 0.98;  // of going on, so that a lossless path ends too
+constexpr double kOwnWidths = 2.5;    // chords through a strand are at most two radii / cos θ long
 constexpr double kLeastCosine = 0.1;
 
 /// How far a ray must be from where it starts before it can hit: above the rounding of floats.
@@ -233,7 +232,7 @@ PathSample PathTracer::trace(Ray ray, Random& random) const {
         throughput *= next.weight;
         scatter_pdf = next.pdf;
         if (next.pdf <= 0.0 || largest(throughput) <= 0.0) break;
-        if (depth >= kRouletteFrom) {
+        if (depth >= settings_.roulette_from) {
             const double go_on = std::min(largest(throughput), kMostLikely);
             if (random.unit() >= go_on) break;
             throughput /= go_on;

@@ -12,6 +12,8 @@ struct TraceSettings {
     /// Most scattering events along a path; 1 is direct light only, 0 is no limit (paths then end
     /// by Russian roulette alone).
     uint32_t max_depth = 0;
+    /// Scattering events that are always followed; later ones by Russian roulette. Same mean.
+    uint32_t roulette_from = 4;
     /// Choose directions towards the environment uniformly instead of by importance. Same mean.
     bool uniform_environment = false;
     /// Weigh light sampling against scattering (Veach's balance heuristic); else light sampling
