@@ -26,6 +26,13 @@ struct HairShadow {
     float first = 0.002f;  ///< metres of hair that stay unshadowed, so that no strand shades itself
 };
 
+/// Beside Hair: how many of its strands are drawn; without it all are. Those left are wider, so
+/// that together they cover the same.
+struct HairDetail {
+    /// Share of the strands, down to 0.04; 0: by the groom's size on the screen.
+    float share = 0.0f;
+};
+
 /// One groom as loaded: its strands on the device and what its file said.
 struct LibraryGroom {
     std::string name;
@@ -34,6 +41,11 @@ struct LibraryGroom {
     /// Points and first points of strands as on the device, for binding and dynamics.
     std::vector<glm::vec3> positions;
     std::vector<uint32_t> strand_begin;
+    /// See StrandData::levels.
+    std::vector<StrandLevel> levels;
+    /// Length of all strands over the area they are seen on from the side, 1/metres: layers of hair
+    /// to a pixel one metre wide.
+    float layers = 0.0f;
     Bounds bounds;  ///< node space, metres
     /// Its outermost points in many directions: what a camera must see to see all of it.
     std::vector<glm::vec3> outermost;

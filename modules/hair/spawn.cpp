@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "engine/platform/jobs.h"
 #include "engine/platform/log.h"
@@ -69,11 +70,23 @@ std::optional<uint32_t> find_groom(const World& world, const std::string& name) 
     return static_cast<uint32_t>(known - grooms.begin());
 }
 
+/// Mean of the three views of the ellipsoid inside the box.
+float layers_of(const StrandData& strands) {
+    double length = 0.0;
+    for (const float strand : strands.strand_length) length += strand;
+    const glm::dvec3 size(strands.bounds.size());
+    const double area =
+        std::numbers::pi / 4.0 * (size.x * size.y + size.y * size.z + size.z * size.x) / 3.0;
+    return area > 0.0 ? static_cast<float>(length / area) : 0.0f;
+}
+
 LibraryGroom describe_groom(const std::string& name, const StrandData& strands,
                             const GroomReport& report) {
     return {.name = name,
             .positions = strands.positions,
             .strand_begin = strands.strand_begin,
+            .levels = strands.levels,
+            .layers = layers_of(strands),
             .bounds = strands.bounds,
             .outermost = outermost_points(strands.positions),
             .width = strands.width,

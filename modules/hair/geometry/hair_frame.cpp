@@ -84,7 +84,36 @@ glm::mat4 affine(const glm::dmat4& world, const glm::dvec3& camera) {
             glm::vec4(m[3], 1.0f)};
 }
 
-HairDraw describe_draw(const LibraryGroom& groom, const glm::dmat4& world,
+/// Layers of strands, each a pixel wide, over the silhouette: fewer show through here and there,
+/// more cost time and show nothing.
+constexpr float kLayersOnScreen = 40.0f;
+
+/// Share of the strands that a groom of this size on the screen calls for.
+float share_on_screen(const LibraryGroom& groom, const glm::dmat4& world, const scene::Box& box,
+                      const scene::ViewState& view) {
+    if (box.empty() || groom.layers <= 0.0f) return 1.0f;
+    const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(world))));
+    const glm::dvec3 nearest = glm::clamp(view.pose.position, box.min, box.max);
+    const double distance =
+        std::max(glm::distance(nearest, view.pose.position), double{view.view.near_plane});
+    const double layers = groom.layers / scale * view.view.pixel_angle * distance;
+    return static_cast<float>(kLayersOnScreen / std::max(layers, 1e-6));
+}
+
+/// The coarsest level that keeps `share` of the strands.
+StrandLevel level_for(const LibraryGroom& groom, float share) {
+    StrandLevel chosen{groom.strands.strand_count, groom.strands.point_count,
+                       groom.strands.segment_count};
+    if (groom.cards) return chosen;
+    for (const StrandLevel& level : groom.levels) {
+        // Levels are random subsets: within a few percent of their share.
+        if (static_cast<float>(level.strands) < 0.97f * share * groom.strands.strand_count) break;
+        chosen = level;
+    }
+    return chosen;
+}
+
+HairDraw describe_draw(const LibraryGroom& groom, const StrandLevel& level, const glm::dmat4& world,
                        const HairMaterial& material, const HairWidth& width,
                        const HairTechniques& techniques) {
     const double volume = std::abs(glm::determinant(glm::dmat3(world)));
@@ -92,15 +121,16 @@ HairDraw describe_draw(const LibraryGroom& groom, const glm::dmat4& world,
     const bool from_column = !given && groom.has_width_column;
     return {.strands = &groom.strands,
             .cards = groom.cards ? &groom.cards : nullptr,
+            .point_count = level.points,
             .positions = groom.strands.positions.address(),
             .world = world,
             .width = from_column ? 0.0f : (given ? width.root : groom.width),
             .tip_scale = width.tip_scale,
             // A width that is given is in metres of the world, however the node scales its groom.
-            .scale = given ? 1.0f : static_cast<float>(std::cbrt(volume)),
+            .scale = level.thicken * (given ? 1.0f : static_cast<float>(std::cbrt(volume))),
             .alpha = material.alpha,
             .opacity = techniques.opacity,
-            .primitives = groom.cards ? groom.cards.triangle_count : groom.strands.segment_count,
+            .primitives = groom.cards ? groom.cards.triangle_count : level.segments,
             .shadowed = techniques.shadow == ShadowTechnique::kPcfExponential,
             .environment_lit = techniques.environment == EnvironmentTechnique::kSh,
             .scattering = techniques.scattering,
@@ -194,13 +224,20 @@ void gather_hair(HairQuery hair, Res<const HairLibrary> library, Res<const HairB
     hair.each([&](Entity entity, const Hair& item, const scene::WorldTransform& world,
                   const scene::PreviousWorldTransform& before, const scene::WorldBounds& bounds,
                   const HairMaterial& material, const HairWidth& width, const HairShadow& shadow,
-                  const HairTechniques& chosen, const HairBinding* binding,
-                  const HairMoves* moves) {
+                  const HairTechniques& chosen, const HairBinding* binding, const HairMoves* moves,
+                  const HairDetail* detail) {
         const LibraryGroom& groom = library->grooms[item.groom];
-        const HairEffects effects =
+        HairEffects effects =
             plan(item, groom, material, chosen, in_view(bounds.box, *view), lights->block);
+        const float share = detail == nullptr ? 1.0f
+                            : detail->share > 0.0f
+                                ? detail->share
+                                : share_on_screen(groom, world.matrix, bounds.box, *view);
+        const StrandLevel level = level_for(groom, share);
+        effects.strands = level.strands;
         frame->effects.push_back(effects);
-        HairDraw draw = describe_draw(groom, world.matrix, material, width, effects.techniques);
+        HairDraw draw =
+            describe_draw(groom, level, world.matrix, material, width, effects.techniques);
         const bool casts = effects.techniques.shadow != ShadowTechnique::kNone;
         if (!effects.drawn && !casts) return;
         glm::dmat4 previous_world = before.known ? before.matrix : world.matrix;
@@ -224,7 +261,7 @@ void gather_hair(HairQuery hair, Res<const HairLibrary> library, Res<const HairB
         draw.rect = pixels_of(bounds.box, *view);
         instance.first_point = draw.first_point = frame->points;
         draw.first_card_point = frame->card_points;
-        (draw.cards ? frame->card_points : frame->points) += groom.strands.point_count;
+        (draw.cards ? frame->card_points : frame->points) += draw.point_count;
         frame->segments += draw.primitives;
         frame->instances.push_back(instance);
         frame->draws.push_back(draw);

@@ -72,6 +72,7 @@ struct HairDeform {
 struct HairDraw {
     const StrandBuffers* strands = nullptr;
     const CardBuffers* cards = nullptr;  ///< null: strands
+    uint32_t point_count = 0;            ///< the first of the groom's points are drawn
     VkDeviceAddress positions = 0;       ///< packed vec3; `world` takes them to the world
     uint32_t deform = kNotDeformed;      ///< into HairFrame::deforms
     glm::dmat4 world{1.0};
@@ -109,6 +110,7 @@ std::string_view text(EffectReason reason);
 struct HairEffects {
     uint32_t groom = 0;
     HairTechniques techniques;
+    uint32_t strands = 0;  ///< drawn of the groom's; fewer by HairDetail
     bool drawn = true;
     EffectReason opacity = EffectReason::kChosen;
     EffectReason shadow = EffectReason::kChosen;
@@ -142,7 +144,7 @@ using HairBoundsQuery = Query<const Hair, const scene::WorldTransform, scene::Wo
 using HairQuery =
     Query<Entity, const Hair, const scene::WorldTransform, const scene::PreviousWorldTransform,
           const scene::WorldBounds, const HairMaterial, const HairWidth, const HairShadow,
-          const HairTechniques, const HairBinding*, const HairMoves*>;
+          const HairTechniques, const HairBinding*, const HairMoves*, const HairDetail*>;
 
 /// System: boxes of hair in the world, widened by a strand.
 void update_hair_bounds(HairBoundsQuery hair, Res<const HairLibrary> library);

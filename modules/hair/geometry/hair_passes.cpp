@@ -56,7 +56,7 @@ ProjectPush project_push(const HairDraw& draw, const glm::mat4& to_clip, glm::ve
             .widths = strands.widths.address(),
             .projected = 0,
             .viewport = viewport,
-            .point_count = strands.point_count,
+            .point_count = draw.point_count,
             .width = draw.width,
             .tip_scale = draw.tip_scale,
             .pixels_per_metre = pixels_per_metre * draw.scale};
@@ -141,7 +141,7 @@ graph::BufferHandle describe_light_projection(const HairFrame& hair, const light
                                               uint32_t index, const HairPipelines& pipelines,
                                               scene::RenderFrame& frame) {
     uint64_t points = 0;
-    for (const HairDraw& draw : hair.casters) points += draw.cards ? 0 : draw.strands->point_count;
+    for (const HairDraw& draw : hair.casters) points += draw.cards ? 0 : draw.point_count;
     auto projected =
         frame.graph.create_buffer("hair light projected", {points * kProjectedPointBytes});
     auto pass = frame.graph.add_pass("hair/shadow_project", PassKind::kCompute);
@@ -216,10 +216,10 @@ void describe_hair_shadows(Res<const HairFrame> hair, Res<const light::LightSet>
                                               .strand_seed = strands.strand_seed.address(),
                                               .target = target,
                                               .size = glm::ivec2(size),
-                                              .segment_count = strands.segment_count,
+                                              .segment_count = draw.primitives,
                                               .alpha = draw.alpha});
-                commands.dispatch_threads(strands.segment_count, kStrandGroupSize);
-                points += strands.point_count * kProjectedPointBytes;
+                commands.dispatch_threads(draw.primitives, kStrandGroupSize);
+                points += draw.point_count * kProjectedPointBytes;
             }
         });
     }
@@ -259,11 +259,11 @@ graph::BufferHandle describe_visibility(const HairFrame& hair, HairPipelines& pi
                 .strand_seed = strands.strand_seed.address(),
                 .target = context.address(target),
                 .size = size,
-                .segment_count = strands.segment_count,
+                .segment_count = draw.primitives,
                 .first_id = draw.first_id,
                 .frame = index,
                 .alpha = draw.alpha});
-            commands.dispatch_threads(strands.segment_count, kStrandGroupSize);
+            commands.dispatch_threads(draw.primitives, kStrandGroupSize);
         }
     });
     return target;

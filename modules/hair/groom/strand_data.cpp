@@ -3,6 +3,7 @@
 #include <oneapi/tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 #include <mutex>
@@ -17,6 +18,8 @@ constexpr size_t kStrandsPerJob = 256;
 /// Ends closer than this, in metres, coincide: a hair's diameter is 1e-4.
 constexpr double kShortestSegment = 1e-9;
 constexpr double kParameterScale = 65535.0;
+/// Makes the level of a strand independent of its seed.
+constexpr uint32_t kLevelSalt = 0x3C6EF372U;
 
 /// Spreads ten bits three apart.
 uint32_t spread_bits(uint32_t bits) {
@@ -67,7 +70,18 @@ void visit_points(const Groom& groom, const Placement& placement, size_t strand,
     }
 }
 
-/// Strand indices along a Morton curve through the roots.
+/// The coarsest level that still holds the strand: level i holds a random 2^(-i/2) of all.
+uint64_t coarsest_level(uint32_t source) {
+    constexpr double kRatio = 0.70710678118654752;
+    const double place = (mix_bits(source ^ kLevelSalt) + 1.0) / 4294967296.0;
+    uint64_t level = 0;
+    for (double share = kRatio; level + 1 < kStrandLevels && place <= share; share *= kRatio) {
+        ++level;
+    }
+    return level;
+}
+
+/// Strand indices, coarsest level first, then along a Morton curve through the roots.
 std::vector<uint32_t> sort_strands(const Groom& groom) {
     Bounds roots;
     for (size_t strand = 0; strand < groom.strand_count(); ++strand) {
@@ -78,7 +92,10 @@ std::vector<uint32_t> sort_strands(const Groom& groom) {
     parallel_ranges(keys.size(), kStrandsPerJob, [&](size_t first, size_t last) {
         for (size_t strand = first; strand < last; ++strand) {
             const glm::vec3 root = groom.points[groom.strand_begin[strand]];
-            keys[strand] = (uint64_t{morton_code((root - roots.low) / size)} << 32U) | strand;
+            const uint64_t finer =
+                kStrandLevels - 1 - coarsest_level(static_cast<uint32_t>(strand));
+            const uint64_t curve = morton_code((root - roots.low) / size) >> 2U;
+            keys[strand] = (finer << 60U) | (curve << 32U) | strand;
         }
     });
     oneapi::tbb::parallel_sort(keys.begin(), keys.end());
@@ -222,6 +239,27 @@ class Filler {
 
 }  // namespace
 
+namespace {
+
+/// Counts the strands of each level, finest first; all columns are filled.
+void find_levels(StrandData& data) {
+    std::array<uint32_t, kStrandLevels> strands{};
+    std::array<double, kStrandLevels> length{};
+    for (size_t s = 0; s < data.strand_count(); ++s) {
+        for (uint64_t level = 0; level <= coarsest_level(data.strand_source[s]); ++level) {
+            ++strands[level];
+            length[level] += data.strand_length[s];
+        }
+    }
+    for (size_t level = 0; level < kStrandLevels && strands[level] > 0; ++level) {
+        const uint32_t points = data.strand_begin[strands[level]];
+        data.levels.push_back({strands[level], points, points - strands[level],
+                               static_cast<float>(length[0] / length[level])});
+    }
+}
+
+}  // namespace
+
 StrandData prepare_strands(const Groom& groom, const glm::dmat4& to_metres, float width) {
     StrandData data;
     const Placement placement(to_metres);
@@ -235,6 +273,7 @@ StrandData prepare_strands(const Groom& groom, const glm::dmat4& to_metres, floa
         const std::scoped_lock lock(merging);
         filler.merge_into(data);
     });
+    find_levels(data);
     return data;
 }
 

@@ -8,11 +8,24 @@
 
 namespace vellus::hair {
 
+/// How much of a groom is left of it in the distance: its first strands, with their points and
+/// segments.
+struct StrandLevel {
+    uint32_t strands = 0;
+    uint32_t points = 0;
+    uint32_t segments = 0;
+    /// Length of all strands over that of these: drawn so much wider, they cover the same.
+    float thicken = 1.0f;
+};
+
+/// A level has about 2^(-1/2) of the strands of the one before; the last about 4 %.
+constexpr size_t kStrandLevels = 10;
+
 /// A groom as the GPU wants it: packed columns in metres, Y up, in the groom's
 /// node space. Points are compacted (no two neighbours of a strand coincide), so a segment always
-/// joins the points first and first + 1 of one strand and has a direction. Strands are sorted along
-/// a Morton curve through their roots and stay contiguous: neighbours in memory are neighbours in
-/// space.
+/// joins the points first and first + 1 of one strand and has a direction. Strands stay contiguous.
+/// Those of the coarsest level come first, then what each finer one adds; within that they are
+/// sorted along a Morton curve through their roots: neighbours in memory are neighbours in space.
 struct StrandData {
     std::vector<glm::vec3> positions;
     /// Arc length from the root over the strand's length, 0 at the root to 65535 at the tip; per
@@ -38,6 +51,10 @@ struct StrandData {
     /// First point of each segment, and its strand.
     std::vector<uint32_t> segment_point;
     std::vector<uint32_t> segment_strand;
+
+    /// levels[0] is all; each level is a random subset of the one before. Shorter where a groom has
+    /// too few strands.
+    std::vector<StrandLevel> levels;
 
     float width = 0.0f;
     glm::vec4 color{1.0f};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/packing.hpp>
 #include <numeric>
@@ -81,6 +82,34 @@ TEST(StrandData, SortingBringsNeighboursTogether) {
     // 4096 roots in a cube: neighbours on the curve are about 1/16 of its edge apart, at random
     // 0.66.
     EXPECT_LT(sorted, 0.25 * unsorted);
+}
+
+TEST(StrandData, EachLevelIsABeginningAndARandomPart) {
+    const Groom groom = test::random_groom(std::vector<uint32_t>(8000, 3));
+    const StrandData data = prepare_strands(groom, kIdentity, 1e-4f);
+    ASSERT_EQ(data.levels.size(), kStrandLevels);
+    EXPECT_EQ(data.levels[0].strands, 8000u);
+    EXPECT_EQ(data.levels[0].points, 24000u);
+    EXPECT_EQ(data.levels[0].thicken, 1.0f);
+    double total = 0.0;
+    for (const float length : data.strand_length) total += length;
+    double share = 1.0;
+    for (const StrandLevel& level : data.levels) {
+        // Four standard deviations of a binomial count.
+        EXPECT_NEAR(level.strands, 8000.0 * share, 4.0 * std::sqrt(8000.0 * share) + 1.0);
+        EXPECT_EQ(level.points, 3 * level.strands);
+        EXPECT_EQ(level.segments, 2 * level.strands);
+        double length = 0.0;
+        double sources = 0.0;
+        for (size_t s = 0; s < level.strands; ++s) {
+            length += data.strand_length[s];
+            sources += data.strand_source[s];
+        }
+        EXPECT_NEAR(level.thicken, total / length, 1e-4 * level.thicken);
+        // A random part of 0 to 7999 has its mean in the middle: five standard errors.
+        EXPECT_NEAR(sources / level.strands, 4000.0, 5.0 * 2310.0 / std::sqrt(level.strands));
+        share *= std::sqrt(0.5);
+    }
 }
 
 TEST(StrandData, CoincidingPointsAreSkippedAndStrandsKept) {
