@@ -40,7 +40,7 @@ Gather make_gather(const ClosestPoint& body, const Head& head, const GrowSetting
     const bool braid = settings.style == GrowStyle::kBraid;
     Gather gather;
     gather.radius =
-        head.radius * (braid ? 0.13 : 0.16) * std::sqrt(std::max(settings.volume, 0.1F) * 2.0);
+        head.radius * (braid ? 0.19 : 0.18) * std::sqrt(std::max(settings.volume, 0.1F) * 2.0);
     gather.step = 0.04 * head.radius;
     const dvec3 offset = braid ? dvec3(0.0, -0.38, -1.0) : dvec3(0.0, 0.42, -1.0);
     dvec3 p = body.push_out(head.center + glm::normalize(offset) * head.radius * 0.9,

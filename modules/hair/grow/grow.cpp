@@ -37,7 +37,7 @@ Result<void> check_surface(const GrowSurface& surface) {
 }
 
 /// The file's column of diameters: tapered from root to tip.
-void add_thickness(const GrowSettings& settings, size_t strands, Groom& groom) {
+void add_thickness(const GrowSettings& settings, Groom& groom) {
     groom.default_thickness = settings.width;
     if (settings.taper <= 0.0f) return;
     const size_t points = settings.points;
@@ -48,7 +48,6 @@ void add_thickness(const GrowSettings& settings, size_t strands, Groom& groom) {
         const float gone = std::max(0.0f, 2.0f * t - 1.0f);
         groom.thickness[i] = settings.width * (1.0f - settings.taper * gone * gone);
     }
-    static_cast<void>(strands);
 }
 
 Groom to_groom(const GrowSettings& settings, const std::vector<Root>& roots, bool mapped,
@@ -63,7 +62,7 @@ Groom to_groom(const GrowSettings& settings, const std::vector<Root>& roots, boo
     if (mapped) {
         for (const Root& root : roots) groom.strand_uvs.push_back(root.uv);
     }
-    add_thickness(settings, roots.size(), groom);
+    add_thickness(settings, groom);
     groom.info = fmt::format("Vellus, {}", grow_style_name(settings.style));
     return groom;
 }

@@ -135,7 +135,8 @@ Line trace_to_band(const Ground& ground, const Root& root, const Gather& gather,
     const double radius = ground.head.radius;
     const double step = 0.04 * radius;
     dvec3 p = root.position;
-    dvec3 direction = unit(root.normal * 0.35 + across(gather.band - p, root.normal), root.normal);
+    dvec3 direction = unit(
+        root.normal * 0.35 + unit(across(gather.band - p, root.normal), dvec3(0.0)), root.normal);
     Line line{p};
     for (int i = 0; i < 150; ++i) {
         const double far = glm::distance(p, gather.band);
@@ -161,13 +162,6 @@ Line trace_to_band(const Ground& ground, const Root& root, const Gather& gather,
 }
 
 }  // namespace
-
-double length_of(const Ground& ground, const Root& root, uint32_t key) {
-    const double short_by = random(ground.seed, key, 6);
-    const double even = 1.0 - ground.settings.length_variation * short_by * short_by;
-    (void)root;
-    return ground.settings.length * even;
-}
 
 double length_of(const Line& line) {
     double length = 0.0;

@@ -31,15 +31,13 @@ struct Guide {
 
 constexpr size_t kGuidePoints = 40;
 
-/// Length of the hair at a root, in metres; `key` is the root's index.
-double length_of(const Ground& ground, const Root& root, uint32_t key);
-
 /// Traces a hair from `root` over the body.
 Guide trace_guide(const Ground& ground, const Root& root, uint32_t key,
                   const std::optional<Gather>& gather);
 
 /// `count` points evenly spaced along a line by arc length.
 Line resample(const Line& line, size_t count);
+/// Metres from end to end.
 double length_of(const Line& line);
 
 }  // namespace vellus::hair::grow

@@ -24,7 +24,8 @@ constexpr std::array kFields = {
               &S::clumping},
     GrowField{"clump-size", "metres between locks at the roots", 1e-4f, 1.0f, &S::clump_size},
     GrowField{"curl", "radius of the curl in metres", 0.0f, 1.0f, &S::curl},
-    GrowField{"curl-period", "metres of strand for one turn", 1e-3f, 10.0f, &S::curl_period},
+    GrowField{"curl-period", "metres of one turn along the middle line", 1e-3f, 10.0f,
+              &S::curl_period},
     GrowField{"frizz", "restlessness of the single hair", 0.0f, 4.0f, &S::frizz},
     GrowField{"flyaways", "share of strands that stand off", 0.0f, 1.0f, &S::flyaways},
     GrowField{"parting", "-1 right ear, 0 middle, 1 left ear", -1.0f, 1.0f, &S::parting},
@@ -53,11 +54,11 @@ GrowSettings preset(GrowStyle style) {
             break;
         case GrowStyle::kWavy:
             s.points = 24;
-            s.clumping = 0.5f;
-            s.clump_size = 0.017f;
-            s.curl = 0.010f;
-            s.curl_period = 0.11f;
-            s.volume = 1.3f;
+            s.clumping = 0.65f;
+            s.clump_size = 0.020f;
+            s.curl = 0.013f;
+            s.curl_period = 0.095f;
+            s.volume = 1.5f;
             break;
         case GrowStyle::kCurly:
             s.length = 0.42f;
@@ -72,14 +73,17 @@ GrowSettings preset(GrowStyle style) {
             s.lift = 0.45f;
             break;
         case GrowStyle::kCoily:
-            s.length = 0.17f;
-            s.length_variation = 0.25f;
+            s.length = 0.15f;
+            s.length_variation = 0.12f;
+            s.count = 16'000;
             s.points = 80;
+            s.width = 0.00011f;
+            s.taper = 0.3f;
             s.clumping = 0.45f;
             s.clump_size = 0.007f;
-            s.curl = 0.0032f;
-            s.curl_period = 0.019f;
-            s.frizz = 0.6f;
+            s.curl = 0.0038f;
+            s.curl_period = 0.011f;
+            s.frizz = 0.5f;
             s.flyaways = 0.06f;
             s.parted = 0.0f;
             s.lift = 0.95f;
@@ -88,7 +92,8 @@ GrowSettings preset(GrowStyle style) {
         case GrowStyle::kPonytail:
             s.length = 0.48f;
             s.points = 28;
-            s.frizz = 0.12f;
+            s.length_variation = 0.3f;
+            s.frizz = 0.2f;
             s.flyaways = 0.008f;
             s.volume = 0.5f;
             s.parted = 0.0f;
@@ -102,14 +107,16 @@ GrowSettings preset(GrowStyle style) {
             s.parted = 0.0f;
             break;
         case GrowStyle::kShort:
-            s.length = 0.045f;
-            s.length_variation = 0.35f;
+            s.length = 0.034f;
+            s.length_variation = 0.25f;
+            s.count = 14'000;
             s.points = 10;
             s.clumping = 0.3f;
-            s.clump_size = 0.008f;
-            s.frizz = 0.15f;
-            s.lift = 0.55f;
-            s.stiffness = 0.75f;
+            s.clump_size = 0.006f;
+            s.frizz = 0.08f;
+            s.flyaways = 0.0f;
+            s.lift = 0.38f;
+            s.stiffness = 0.55f;
             s.parted = 0.0f;
             s.comb = {0.25f, 0.0f, 1.0f};
             break;

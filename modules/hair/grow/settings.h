@@ -39,7 +39,7 @@ struct GrowSettings {
     float clumping = 0.35f;     ///< how far strands join their lock towards the tip
     float clump_size = 0.014f;  ///< distance between locks at the roots
     float curl = 0.0f;          ///< radius of the helix (of the wave, for wavy hair)
-    float curl_period = 0.10f;  ///< length of strand for one turn
+    float curl_period = 0.10f;  ///< of one turn, along the middle line
     float frizz = 0.25f;        ///< how restless the single hair is; 1 strays by about a centimetre
     float flyaways = 0.02f;     ///< share of strands that stand off
 

@@ -69,7 +69,6 @@ class Shaper {
     void shape(size_t i) {
         const size_t points = strands_.points;
         line_.assign(strands_.strand(i), strands_.strand(i) + points);
-        // Hair that stands off does not stand off the band it is tied by.
         if (ground_.settings.curl > 0.0f) curl(i);
         if (ground_.settings.frizz > 0.0f) loosen(i);
         settle(i);
@@ -144,12 +143,12 @@ class Shaper {
         for (size_t p = 1; p < line_.size(); ++p) {
             const double clearance =
                 most * std::min(1.0, static_cast<double>(p) / 2.0) * (0.5 + 0.5 * random_of(i, 41));
-            line_[p] = ground_.body.push_out(line_[p], clearance, 0.3 * radius);
-            if (keeps_face && p > 3) {
-                line_[p] =
-                    clear_of_face(ground_.head, line_[p],
-                                  -0.06 * radius - (1.0 - ground_.settings.face) * 0.7 * radius);
-            }
+            // Blended from guides on both sides of the head, a strand may run deep inside it.
+            line_[p] = ground_.body.push_out(line_[p], clearance, radius);
+            if (!keeps_face || p <= 3) continue;
+            const double beside = -0.06 * radius - (1.0 - ground_.settings.face) * 0.7 * radius;
+            const dvec3 clear = clear_of_face(ground_.head, line_[p], beside);
+            if (clear != line_[p]) line_[p] = ground_.body.push_out(clear, clearance, radius);
         }
     }
 
