@@ -4,6 +4,8 @@
 #include <functional>
 #include <iosfwd>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "engine/platform/result.h"
 
@@ -23,6 +25,7 @@ struct Command {
 extern const Command kInfo;
 extern const Command kConvert;
 extern const Command kGenerate;
+extern const Command kView;
 
 /// All of them, in the order of --help. A new one is one file and one line in program.cpp.
 std::span<const Command* const> commands();
@@ -36,5 +39,12 @@ std::function<void(const std::string&)> reading(const char* option, Read read) {
         }
     };
 }
+
+/// "1,2.5,-3": exactly `count` numbers.
+Result<std::vector<float>> read_numbers(const std::string& text, size_t count);
+
+/// Adds an option that takes `count` numbers between commas and hands them to `take`.
+CLI::Option* add_numbers(CLI::App& app, const char* name, size_t count, const char* help,
+                         std::function<void(const std::vector<float>&)> take);
 
 }  // namespace vellus::groom_tool

@@ -126,10 +126,9 @@ void add_place_options(CLI::App& app, Options& options) {
     app.add_option("--mask", options.region.mask,
                    "Where: a picture over TEXCOORD_0, white is haired")
         ->type_name("IMAGE.png");
-    app.add_option("--sphere", options.sphere,
-                   "Where: inside this ball; without --on, the ball itself is the head")
-        ->delimiter(',')
-        ->expected(4)
+    add_numbers(app, "--sphere", 4,
+                "Where: inside this ball; without --on, the ball itself is the head",
+                [&options](const std::vector<float>& numbers) { options.sphere = numbers; })
         ->type_name("X,Y,Z,R");
     app.add_option("--space", options.space,
                    "Space of the strands: scene, mesh (its POSITION), or a node by name, to hang "
@@ -169,14 +168,11 @@ void add_style_options(CLI::App& app, Options& options) {
         add_change(app, options, fmt::format("--{}", field.name),
                    fmt::format("{} ({} to {})", field.help, field.low, field.high), field.value);
     }
-    app.add_option_function<std::vector<float>>(
-           "--comb",
-           [&options](const std::vector<float>& v) {
-               options.changes.push_back([=](GrowSettings& s) { s.comb = {v[0], v[1], v[2]}; });
-           },
-           "where short hair and fur are combed; the face looks along +Z")
-        ->delimiter(',')
-        ->expected(3)
+    add_numbers(
+        app, "--comb", 3, "where short hair and fur are combed; the face looks along +Z",
+        [&options](const std::vector<float>& v) {
+            options.changes.push_back([=](GrowSettings& s) { s.comb = {v[0], v[1], v[2]}; });
+        })
         ->type_name("X,Y,Z");
 }
 

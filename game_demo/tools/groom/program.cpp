@@ -11,7 +11,7 @@
 namespace vellus::groom_tool {
 
 std::span<const Command* const> commands() {
-    static constexpr std::array<const Command*, 3> kAll = {&kInfo, &kConvert, &kGenerate};
+    static constexpr std::array<const Command*, 4> kAll = {&kInfo, &kConvert, &kGenerate, &kView};
     return kAll;
 }
 
