@@ -103,6 +103,7 @@ Result<void> run(Options options, std::ostream& out) {
     if (!groom) return groom.error();
     const double seconds = wall_seconds() - start;
     place(options, *surface, *groom);
+    if (options.out.extension() != ".hair") groom->info.clear();
     // Placed in a space that somebody chose, a groom keeps its axes.
     const bool keep_axes = options.space != "scene" || options.unit != 1.0;
     if (auto saved = save(*groom, options.out, keep_axes, out); !saved) return saved;

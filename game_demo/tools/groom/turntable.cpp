@@ -80,7 +80,7 @@ class Photographer {
         demo::Options options = turntable_.renderer;
         options.scene = turntable_.scene.empty() ? turntable_.groom : turntable_.scene;
         options.dt = 0.0;
-        if (auto loaded = demo::load_content(renderer_, device_, options); !loaded) {
+        if (auto loaded = demo::load_content(renderer_, options); !loaded) {
             return loaded.error();
         }
         if (!turntable_.scene.empty()) {

@@ -69,10 +69,13 @@ Combed comb_at(const Ground& ground, const Root& root) {
             across(wanted, root.normal) + across(kDown, root.normal) * (0.3 * (1.0 - steady));
         combed.direction = unit(along, combed.direction);
         if (style == GrowStyle::kShort) {
-            const double q = (root.position.y - ground.head.center.y) / ground.head.radius;
-            const dvec3 side = unit(across(kDown, root.normal), combed.direction);
-            combed.direction =
-                unit(glm::mix(side, combed.direction, smoothstep(0.45, 0.85, q)), combed.direction);
+            // Away from the crown all round, by the comb on top, down at the sides.
+            const dvec3 q = (root.position - ground.head.center) / ground.head.radius;
+            const dvec3 away = across(q - kCrown, root.normal);
+            const dvec3 down = across(kDown, root.normal) * smoothstep(0.95, 0.1, q.y);
+            combed.direction = unit(unit(away, along) + down * 0.8 +
+                                        combed.direction * (0.4 * smoothstep(0.5, 0.9, q.y)),
+                                    combed.direction);
         }
     }
     return combed;

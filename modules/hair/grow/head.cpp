@@ -11,9 +11,6 @@ namespace {
 
 using glm::dvec3;
 
-/// Where hair whirls, in radii from the middle of the head.
-constexpr dvec3 kCrown{0.10, 0.93, -0.45};
-
 /// Solves the symmetric 4x4 system of the sphere fit by elimination with pivots; false if singular.
 bool solve(double m[4][5]) {
     for (int column = 0; column < 4; ++column) {

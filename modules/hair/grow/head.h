@@ -15,6 +15,9 @@ struct Head {
     double radius = 0.09;
 };
 
+/// Where hair whirls, in radii from the middle of the head.
+constexpr glm::dvec3 kCrown{0.10, 0.93, -0.45};
+
 /// The least-squares sphere through the roots; where they are too flat or too few for one, a ball
 /// as large as they are spread.
 Head fit_head(const std::vector<Root>& roots);

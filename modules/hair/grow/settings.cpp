@@ -53,7 +53,7 @@ GrowSettings preset(GrowStyle style) {
             s.volume = 1.4f;
             break;
         case GrowStyle::kWavy:
-            s.points = 24;
+            s.points = 32;
             s.clumping = 0.65f;
             s.clump_size = 0.020f;
             s.curl = 0.013f;

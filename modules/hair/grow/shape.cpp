@@ -89,12 +89,19 @@ class Shaper {
         const size_t points = line_.size();
         const size_t lock = locks_.lock[i];
         const double step = length_of(line_) / static_cast<double>(points - 1);
-        const double period = std::max(settings.curl_period * (1.0 + 0.18 * spread_of(lock, 81)),
+        const bool flat = settings.style == GrowStyle::kWavy;
+        const double varied = flat ? 0.05 : 0.18;
+        const double period = std::max(settings.curl_period * (1.0 + varied * spread_of(lock, 81)),
                                        kPointsPerTurn * step);
-        const double phase = random_of(lock, 82) + 0.10 * spread_of(i, 83);
+        // Waves lie side by side at one height, as fingers press them; curls start as they like.
+        const dvec3 from_middle = roots_[lock].position - ground_.head.center;
+        const double start =
+            flat ? 0.18 * noise(from_middle, ground_.head.radius, ground_.seed, 87) -
+                       from_middle.y / period
+                 : random_of(lock, 82);
+        const double phase = start + (flat ? 0.04 : 0.10) * spread_of(i, 83);
         const double radius =
             settings.curl * (1.0 + 0.25 * spread_of(lock, 84)) * (1.0 + 0.15 * spread_of(i, 85));
-        const bool flat = settings.style == GrowStyle::kWavy;
         const double hand = flat || random_of(lock, 86) < 0.5 ? 1.0 : -1.0;
         Transport frame{unit(line_[1] - line_[0], roots_[i].normal), {}};
         frame.side = unit(across(roots_[i].normal, frame.tangent), any_across(frame.tangent));

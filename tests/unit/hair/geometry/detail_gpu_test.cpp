@@ -73,7 +73,7 @@ void expect_same_coverage(gpu::Device& device, const StrandData& strands, float 
         EXPECT_NEAR(some / all, 1.0, 0.03) << name << ", share " << share;
         EXPECT_GT(kept, 0.9 * share);
         EXPECT_LT(kept, 1.6 * share) << "levels are the square root of two apart";
-        EXPECT_EQ(frame.segments, frame.draws[0].segment_count);
+        EXPECT_EQ(frame.segments, frame.draws[0].primitives);
         EXPECT_LT(frame.segments, 1.7 * share * static_cast<double>(strands.segment_count()))
             << "what is not drawn costs nothing";
     }
