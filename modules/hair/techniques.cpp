@@ -13,7 +13,7 @@ constexpr std::array<std::string_view, 2> kShadow = {"none", "pcf_exponential"};
 constexpr std::array<std::string_view, kScatteringTechniques> kScattering = {
     "karis",    "kajiya_kay",   "marschner", "karis_rational", "series_gaussian", "series_a2",
     "series_b", "series_exact", "deon"};
-constexpr std::array<std::string_view, 2> kMultiple = {"none", "fake_normal"};
+constexpr std::array<std::string_view, 3> kMultiple = {"none", "fake_normal", "dual"};
 constexpr std::array<std::string_view, 2> kEnvironment = {"none", "sh"};
 
 constexpr std::array<std::string_view, 5> kAxes = {"opacity", "shadow", "scattering", "multiple",

@@ -25,7 +25,7 @@ enum class ScatteringTechnique : uint8_t {
 };
 constexpr uint32_t kScatteringTechniques = 9;
 /// In the order of shaders/hair/scattering/scattering.glsl.
-enum class MultipleTechnique : uint8_t { kNone, kFakeNormal };
+enum class MultipleTechnique : uint8_t { kNone, kFakeNormal, kDual };
 enum class EnvironmentTechnique : uint8_t { kNone, kSh };
 
 /// How a groom is drawn, one choice on each axis. Component; may change from frame to frame.

@@ -98,7 +98,7 @@ void describe_hair_projection(Res<HairFrame> hair, Res<HairPipelines> pipelines,
         const HairDraw& draw = hair->draws[i];
         const auto block = frame->uploads.push_uniform(instance);
         hair->instance_blocks.push_back(block);
-        hair->fibre_blocks.push_back(needs_fibre(draw.scattering)
+        hair->fibre_blocks.push_back(needs_fibre(draw.scattering, draw.multiple)
                                          ? frame->uploads.push_uniform(fibres->fibre(
                                                draw.optics, instance.roughness, instance.shift))
                                          : block);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 namespace vellus::hair {
@@ -128,6 +129,44 @@ std::vector<double> fit_lobe(const FibreOptics& optics, int p, double width, siz
     return fit.b;
 }
 
+/// ∫ N |φ|/π dφ of a series whose terms carry their 2, π c_0 - 4/π Σ over odd k of 2 c_k / k², and
+/// the rest.
+glm::dvec2 shares(std::span<const double> series) {
+    double forward = kPi * series[0];
+    for (size_t k = 1; k < series.size(); k += 2) {
+        forward -= 4.0 / kPi * series[k] / static_cast<double>(k * k);
+    }
+    return {forward, 2.0 * kPi * series[0] - forward};
+}
+
+/// Shares of R, ¼ |cos φ/2| F, as cubics in u.
+void fit_reflection(const FibreOptics& optics, glsl::HairFibre& fibre) {
+    LeastSquares fit{.columns = 4, .sides = 2, .a = {}, .b = {}};
+    for (int i = 0; i < kGrazes; ++i) {
+        const double x = 0.5 - 0.5 * std::cos(kPi * (i + 0.5) / kGrazes);
+        const double u = x / (x + glsl::kGrazing);
+        double forward = 0.0;
+        double all = 0.0;
+        for (int j = 0; j < kOffsets; ++j) {
+            const double gamma = 0.5 * kPi * (j + 0.5) / kOffsets;  // φ = 2 γ
+            const double f =
+                fresnel(static_cast<double>(optics.eta) * optics.eta - 1.0, x * std::cos(gamma)) *
+                std::cos(gamma) * 0.5 * kPi / kOffsets;
+            forward += f * 2.0 * gamma / kPi;
+            all += f;
+        }
+        const double weight = 1.0 / all;
+        for (const double power : {1.0, u, u * u, u * u * u}) fit.a.push_back(weight * power);
+        fit.b.push_back(weight * forward);
+        fit.b.push_back(weight * (all - forward));
+    }
+    fit.solve();
+    for (int d = 0; d < 4; ++d) {
+        fibre.r_forward[d] = static_cast<float>(fit.b[d * 2]);
+        fibre.r_backward[d] = static_cast<float>(fit.b[d * 2 + 1]);
+    }
+}
+
 }  // namespace
 
 void fit_azimuthal(const FibreOptics& given, glsl::HairFibre& fibre) {
@@ -142,13 +181,22 @@ void fit_azimuthal(const FibreOptics& given, glsl::HairFibre& fibre) {
     for (size_t row = 0; row < 6; ++row) {
         for (int k = 0; k < 4; ++k) fibre.tt[row][k] = static_cast<float>(tt[row * 4 + k]);
     }
+    for (size_t row = 0; row < 6; ++row) {
+        const auto share = shares(std::span(tt).subspan(row * 4, 4));
+        fibre.forward[row / 3][static_cast<int>(row % 3)] = static_cast<float>(share.x);
+        fibre.backward[row / 3][static_cast<int>(row % 3)] = static_cast<float>(share.y);
+    }
     const auto trt =
         fit_lobe(optics, 2, optics.detector_trt, 8, {0.5 * (glsl::kPathShort + glsl::kPathLong)});
     for (size_t degree = 0; degree < 3; ++degree) {
         for (int k = 0; k < 8; ++k) {
             fibre.trt[degree + (k < 4 ? 0 : 3)][k % 4] = static_cast<float>(trt[degree * 8 + k]);
         }
+        const auto share = shares(std::span(trt).subspan(degree * 8, 8));
+        fibre.forward[2][static_cast<int>(degree)] = static_cast<float>(share.x);
+        fibre.backward[2][static_cast<int>(degree)] = static_cast<float>(share.y);
     }
+    fit_reflection(optics, fibre);
 }
 
 void set_longitudinal(float roughness, float shift, glsl::HairFibre& fibre) {

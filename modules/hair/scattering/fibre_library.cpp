@@ -18,8 +18,10 @@ FibreOptics fibre_optics(const HairMaterial& material) {
     return optics;
 }
 
-bool needs_fibre(ScatteringTechnique technique) {
-    return technique != ScatteringTechnique::kKaris && technique != ScatteringTechnique::kKajiyaKay;
+bool needs_fibre(ScatteringTechnique scattering, MultipleTechnique multiple) {
+    return (scattering != ScatteringTechnique::kKaris &&
+            scattering != ScatteringTechnique::kKajiyaKay) ||
+           multiple == MultipleTechnique::kDual;
 }
 
 glsl::HairFibre FibreLibrary::fibre(const FibreOptics& optics, float roughness, float shift) {

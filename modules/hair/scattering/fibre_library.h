@@ -11,8 +11,8 @@ namespace vellus::hair {
 /// The optics of this material: its index, and Karis's azimuthal widths times its factor.
 FibreOptics fibre_optics(const HairMaterial& material);
 
-/// Whether shading by this technique reads a HairFibre; the others have none made.
-bool needs_fibre(ScatteringTechnique technique);
+/// Whether shading by these techniques reads a HairFibre; the others have none made.
+bool needs_fibre(ScatteringTechnique scattering, MultipleTechnique multiple);
 
 /// Azimuthal fits made so far, one for each set of optics in use; the oldest goes when there are
 /// many. Resource.

@@ -16,6 +16,12 @@ struct HairFibre {
     float detector_trt;
     vec4 tt[6];   // hair/scattering/azimuthal.glsl: by path [0, 3) and [3, 6), then degree
     vec4 trt[6];  // by k < 4 and k >= 4, then degree
+    // Shares of each lobe that go on and turn back (hair/scattering/dual.glsl), in u: R's cubics, then
+    // TT's two paths and TRT like the series.
+    vec4 r_forward;
+    vec4 r_backward;
+    vec3 forward[3];
+    vec3 backward[3];
 };
 
 /// The eye's inclination as each lobe sees it: turned by its tilt.

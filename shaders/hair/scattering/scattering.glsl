@@ -4,6 +4,7 @@
 #define VELLUS_HAIR_SCATTERING_GLSL
 #include "hair/scattering/azimuthal.glsl"
 #include "hair/scattering/deon.glsl"
+#include "hair/scattering/dual.glsl"
 #include "hair/scattering/kajiya_kay.glsl"
 #include "hair/scattering/longitudinal.glsl"
 #include "hair/scattering/marschner.glsl"
@@ -21,6 +22,7 @@ const int kScatteringCount = 9;
 
 const int kMultipleNone = 0;
 const int kMultipleFakeNormal = 1;
+const int kMultipleDual = 2;
 
 /// S of single scattering [1/sr] for a beam from `to_light` (unit). karis and kajiya_kay use neither
 /// `fibre` nor `e`.
@@ -36,8 +38,8 @@ VELLUS_FN vec3 hair_bsdf(int technique, VELLUS_IN(HairFibre) fibre, HairSurface 
     return series_bsdf(technique - kScatteringSeriesGaussian, fibre, s, f, e, to_light);
 }
 
-/// Radiance to the eye per unit irradiance across the beam; `shadow` in [0, 1] is the light that reaches
-/// the fibre (1 = lit).
+/// Radiance to the eye per unit irradiance across the beam; `shadow` in [0, 1] is the light that passes the
+/// hair in front (1 = lit).
 VELLUS_FN vec3 hair_direct(int technique, int multiple, VELLUS_IN(HairFibre) fibre, HairSurface s,
                            HairFrame f, HairEye e, vec3 to_light, float shadow) {
     vec3 scattered = hair_bsdf(technique, fibre, s, f, e, to_light);
@@ -45,7 +47,9 @@ VELLUS_FN vec3 hair_direct(int technique, int multiple, VELLUS_IN(HairFibre) fib
         float sin_i = clamp(dot(f.tangent, to_light), -1.0f, 1.0f);
         scattered += karis_scattering(s, f, to_light, shadow) * safe_sqrt(1.0f - sin_i * sin_i);
     }
-    return scattered * shadow;
+    vec3 radiance = scattered * shadow;
+    if (multiple == kMultipleDual) radiance += dual_scattering(fibre, s, f, e, to_light, shadow);
+    return radiance;
 }
 
 #endif

@@ -41,14 +41,15 @@ layout(binding = 6, scalar) uniform Instance { HairInstance hair; };
 // Where the techniques need no fibre, something else is bound and nothing read.
 layout(binding = 7, scalar) uniform Fibre { HairFibre fibre; };
 
-float shadow_of(PunctualLight light, vec3 position) {
+/// Of the light, what passes the hair in front; `opaque` is what passes everything else.
+float shadow_of(PunctualLight light, vec3 position, out float opaque) {
+    opaque = 1.0;
     if (!kShadowed || light.shadow_tile == kNoShadow) return 1.0;
     float texel = shadow_texel_metres(light, light.hair_texel, light.kind == kLightSun
                                                  ? 1.0
                                                  : distance(light.position, position));
-    float shadow =
-        hair_transmittance(light, position, hair.shadow_falloff, hair.shadow_first + texel);
-    return kOpaqueCasters ? shadow * opaque_visibility(opaque_shadows, light, position) : shadow;
+    if (kOpaqueCasters) opaque = opaque_visibility(opaque_shadows, light, position);
+    return hair_transmittance(light, position, hair.shadow_falloff, hair.shadow_first + texel);
 }
 
 vec3 shade(HairSurface surface, vec3 position, vec3 tangent) {
@@ -58,8 +59,9 @@ vec3 shade(HairSurface surface, vec3 position, vec3 tangent) {
     [[unroll]] for (uint i = 0u; i < kLightCount; ++i) {
         vec3 to_light;
         vec3 irradiance = light_irradiance(lights.light[i], position, to_light);
-        float shadow = shadow_of(lights.light[i], position);
-        radiance += irradiance * hair_direct(kScattering, kMultiple, fibre, surface, frame, eye,
+        float opaque;
+        float shadow = shadow_of(lights.light[i], position, opaque);
+        radiance += irradiance * opaque * hair_direct(kScattering, kMultiple, fibre, surface, frame, eye,
                                              to_light, shadow);
     }
     if (kEnvironmentLit) {

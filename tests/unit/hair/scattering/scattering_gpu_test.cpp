@@ -31,14 +31,14 @@ class ScatteringTest : public test::GpuTest {
     /// The pixel in the middle of the picture, whose strand runs along -Y at the eye's own height.
     static constexpr uint32_t kSize = 65;
 
-    glm::vec3 middle(ScatteringTechnique scattering, const glm::vec3& to_sun,
-                     size_t* fits = nullptr) {
+    glm::vec3 middle(ScatteringTechnique scattering, MultipleTechnique multiple,
+                     const glm::vec3& to_sun, size_t* fits = nullptr) {
         test::HairScene scene(device(), kSize, kSize);
         HairExtension look;
         look.material.base_color = look.material.tip_color = {0.7f, 0.4f, 0.1f};
         look.material.color_variation = 0.0f;
         look.material.specular = 0.5f;
-        scene.add_hair(patch(), look, unshadowed(scattering, MultipleTechnique::kNone));
+        scene.add_hair(patch(), look, unshadowed(scattering, multiple));
         scene.add_sun(to_sun);
         scene.build();
         const auto pixels = scene.draw();
@@ -53,9 +53,9 @@ TEST_F(ScatteringTest, EveryTechniqueIsItsFunctionOnTheDevice) {
         const auto technique = static_cast<ScatteringTechnique>(t);
         SCOPED_TRACE(t);
         size_t fits = 0;
-        const glm::vec3 drawn = middle(technique, to_sun, &fits);
+        const glm::vec3 drawn = middle(technique, MultipleTechnique::kNone, to_sun, &fits);
         // What a scene does not choose costs nothing.
-        EXPECT_EQ(fits, needs_fibre(technique) ? 1u : 0u);
+        EXPECT_EQ(fits, needs_fibre(technique, MultipleTechnique::kNone) ? 1u : 0u);
         const HairMaterial material;
         const glsl::HairSurface s{
             {0.7f, 0.4f, 0.1f}, 0.5f, material.roughness, 1.0f, std::sin(material.shift)};
@@ -70,6 +70,28 @@ TEST_F(ScatteringTest, EveryTechniqueIsItsFunctionOnTheDevice) {
             EXPECT_NEAR(drawn[c], exact[c], 0.03f * exact[c] + 2e-3f) << t << " " << c;
         }
         EXPECT_GT(exact.x, 1e-3f) << t;
+    }
+}
+
+TEST_F(ScatteringTest, DualScatteringIsItsFunctionOnTheDevice) {
+    const glm::vec3 to_sun = glm::normalize(glm::vec3(0.6f, 0.03f, 0.5f));
+    const HairMaterial material;
+    const glsl::HairSurface s{
+        {0.7f, 0.4f, 0.1f}, 0.5f, material.roughness, 1.0f, std::sin(material.shift)};
+    glsl::HairFibre fibre{};
+    fit_azimuthal({}, fibre);
+    set_longitudinal(s.roughness, s.shift, fibre);
+    const auto frame = glsl::hair_frame({0, -1, 0}, {0, 0, 1});
+    for (const auto scattering : {ScatteringTechnique::kKaris, ScatteringTechnique::kSeriesB}) {
+        const glm::vec3 drawn = middle(scattering, MultipleTechnique::kDual, to_sun);
+        const auto single = middle(scattering, MultipleTechnique::kNone, to_sun);
+        const glm::vec3 exact =
+            glsl::hair_direct(static_cast<int>(scattering), glsl::kMultipleDual, fibre, s, frame,
+                              glsl::hair_eye(fibre, frame), to_sun, 1.0f);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(drawn[c], exact[c], 0.03f * exact[c] + 2e-3f) << c;
+            EXPECT_GT(drawn[c], single[c]);
+        }
     }
 }
 
