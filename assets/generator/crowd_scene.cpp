@@ -96,6 +96,7 @@ std::vector<Track> add_person(GltfScene& scene, size_t index, const std::vector<
 GltfScene make_crowd_scene(const std::vector<SkinnedPart>& figure) {
     GltfScene scene("crowd");
     std::vector<Json> geometry;
+    geometry.reserve(figure.size());
     for (const SkinnedPart& part : figure) {
         geometry.push_back(scene.add_geometry(part));
     }

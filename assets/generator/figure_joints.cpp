@@ -86,7 +86,9 @@ Influences figure_influences(dvec3 p) {
     for (const int side : {0, 1}) {
         const dvec3 q(side == 0 ? p.x : -p.x, p.y, p.z);
         // Each right limb follows its left one by four joints.
-        const auto joint = [&](int left) { return static_cast<size_t>(left + 4 * side); };
+        const auto joint = [&](int left) {
+            return static_cast<size_t>(left) + size_t{4} * static_cast<size_t>(side);
+        };
         const double arm = near_arm(q);
         on[joint(kLeftShoulder)] =
             std::max(smoothstep(0.030, 0.110, q.x) * smoothstep(1.150, 1.270, p.y) *

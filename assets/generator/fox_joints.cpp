@@ -56,7 +56,8 @@ Influences fox_influences(dvec3 p) {
     for (const int side : {0, 1}) {
         const dvec3 q(side == 0 ? p.x : -p.x, p.y, p.z);
         const auto joint = [&](int left, int step) {
-            return static_cast<size_t>(left + side * step);
+            return static_cast<size_t>(left) +
+                   static_cast<size_t>(side) * static_cast<size_t>(step);
         };
         const double half = smoothstep(-0.010, 0.010, q.x);
         on[joint(kFoxLeftEar, 1)] = half * beyond(q, {0.046, 0.592, 0.285}, {0.2, 1.0, 0.0}, 0.014);

@@ -249,8 +249,8 @@ Node GltfScene::add_camera(dvec3 eye, dvec3 target, double vertical_fov, Node pa
                     parent);
 }
 
-Node GltfScene::add_hair(const std::string& name, const std::string& groom, dvec3 place, Json look,
-                         Node parent) {
+Node GltfScene::add_hair(const std::string& name, const std::string& groom, dvec3 place,
+                         const Json& look, Node parent) {
     // Undoes what to_groom() did: the groom is Z up in centimetres.
     constexpr double kHalf = 0.70710678118654752;
     Json hair = {

@@ -72,8 +72,8 @@ class GltfScene {
     Node add_camera(glm::dvec3 eye, glm::dvec3 target, double vertical_fov, Node parent = kNoNode);
     /// A groom beside the scene, made by to_groom(): where sculpting space lies in the node's. The
     /// extension's other fields come from `look`.
-    Node add_hair(const std::string& name, const std::string& groom, glm::dvec3 place, Json look,
-                  Node parent);
+    Node add_hair(const std::string& name, const std::string& groom, glm::dvec3 place,
+                  const Json& look, Node parent);
     Node add_sun(glm::dvec3 to_sun, glm::dvec3 color, double intensity);
 
     [[nodiscard]] const std::string& name() const { return name_; }

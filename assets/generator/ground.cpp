@@ -66,7 +66,9 @@ double ground_height(const Ground& ground, double x, double z) {
 
 SkinnedPart make_ground(const Ground& ground) {
     SkinnedPart part{"ground", {}, {}, {}, dvec3(1.0), 0.95};
-    auto& [positions, normals, indices] = part.surface;
+    std::vector<dvec3>& positions = part.surface.positions;
+    std::vector<dvec3>& normals = part.surface.normals;
+    std::vector<uint32_t>& indices = part.surface.indices;
     const auto add = [&](double x, double z) {
         constexpr double kStep = 0.05;
         const auto height = [&](double u, double v) { return ground_height(ground, u, v); };
