@@ -72,7 +72,10 @@ Result<LoadedContent> load_scene(ContentHost& host,
     if (!instance) return instance.error();
     if (auto meshes = host.add_meshes(); !meshes) return meshes.error();
     const hair::HairKeeper keeper{
-        adding_to(host), [&](Entity hair, Entity mesh) { return host.bind_hair(hair, mesh); }};
+        adding_to(host), [&](Entity hair, Entity mesh) { return host.bind_hair(hair, mesh); },
+        [&](Entity hair, const hair::MotionChoice& motion) {
+            return host.move_hair(hair, motion);
+        }};
     if (auto hair = hair::spawn_scene_hair(world, keeper, *instance); !hair) return hair.error();
     if (!scene->animations.empty()) {
         const Entity root = world.resource<scene::SceneLibrary>().instances[*instance].root;

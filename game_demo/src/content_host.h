@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "engine/ecs/ecs.h"
+#include "modules/hair/dynamics/motion_extension.h"
 #include "modules/light/load_environment.h"
 
 namespace vellus::demo {
@@ -26,6 +27,8 @@ class ContentHost {
     virtual Result<uint32_t> add_groom(const std::filesystem::path& path, bool upright) = 0;
     /// Binds a hair entity to a mesh entity.
     virtual Result<void> bind_hair(Entity hair, Entity mesh) = 0;
+    /// Lets a hair entity's strands move; a host that draws single pictures leaves them as they are.
+    virtual Result<void> move_hair(Entity, const hair::MotionChoice&) { return {}; }
     /// The meshes of the SceneLibrary that are new.
     virtual Result<void> add_meshes() = 0;
     virtual Result<void> set_environment(const light::EnvironmentImage& image) = 0;

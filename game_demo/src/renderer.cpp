@@ -6,6 +6,7 @@
 #include "modules/display/readback.h"
 #include "modules/display/register.h"
 #include "modules/hair/binding/bind_hair.h"
+#include "modules/hair/dynamics/groom_motion.h"
 #include "modules/hair/components.h"
 #include "modules/hair/geometry/hair_frame.h"
 #include "modules/hair/register.h"
@@ -83,6 +84,10 @@ void Renderer::resize(uint32_t width, uint32_t height) {
 
 Result<uint32_t> Renderer::add_groom(const std::filesystem::path& path, bool upright) {
     return hair::add_groom(world_, device_, path, upright);
+}
+
+Result<void> Renderer::move_hair(Entity hair, const hair::MotionChoice& motion) {
+    return hair::add_motion(world_, device_, hair, motion.motion, motion.guides);
 }
 
 Result<void> Renderer::bind_hair(Entity hair, Entity mesh) {
@@ -177,6 +182,10 @@ std::vector<EffectRow> Renderer::effects() const {
                             std::string(technique_id(groom.techniques, name)),
                             std::string(text(reasons[axis]))});
         }
+        if (groom.motion == hair::MotionReason::kNone) continue;
+        rows.push_back({library.grooms[groom.groom].name, "motion",
+                        std::string(motion_id(groom.motion, groom.solver)),
+                        std::string(text(groom.motion))});
     }
     return rows;
 }

@@ -35,6 +35,7 @@ class Renderer final : public ContentHost {
     Result<void> settle() override;
     Result<uint32_t> add_groom(const std::filesystem::path& path, bool upright) override;
     Result<void> bind_hair(Entity hair, Entity mesh) override;
+    Result<void> move_hair(Entity hair, const hair::MotionChoice& motion) override;
     Result<void> add_meshes() override;
     Result<void> set_environment(const light::EnvironmentImage& image) override;
     /// One frame: systems, graph, device. Does not wait for the device.

@@ -2,6 +2,8 @@
 
 #include "modules/character/deform.h"
 #include "modules/hair/binding/deform_passes.h"
+#include "modules/hair/dynamics/move_hair.h"
+#include "modules/hair/dynamics/move_passes.h"
 #include "modules/hair/geometry/hair_passes.h"
 #include "modules/light/environment.h"
 #include "modules/scene/stages.h"
@@ -27,6 +29,10 @@ void register_hair(World& world, Schedule& schedule) {
     world.insert_resource(FibreLibrary{});
     world.insert_resource(HairShadowMaps{});
     world.insert_resource(HairDeformation{});
+    world.insert_resource(HairMotions{});
+    world.insert_resource(HairMotionPasses{});
+    world.insert_resource(Wind{});
+    schedule.add(move_hair).in(scene::kView).after(pose_hair).after(scene::update_view);
     schedule.add(gather_hair)
         .in(scene::kGather)
         .after(light::gather_lights)
@@ -34,7 +40,8 @@ void register_hair(World& world, Schedule& schedule) {
     schedule.add(assign_hair_points).in(scene::kGather).after(gather_hair);
     schedule.add(assign_hair_shadows).in(scene::kGather).after(assign_hair_points);
     schedule.add(describe_hair_deformation).in(scene::kStrands);
-    schedule.add(describe_hair_projection).in(scene::kStrands).after(describe_hair_deformation);
+    schedule.add(describe_hair_motion).in(scene::kStrands).after(describe_hair_deformation);
+    schedule.add(describe_hair_projection).in(scene::kStrands).after(describe_hair_motion);
     schedule.add(describe_hair_shadows).in(scene::kShadows);
     schedule.add(describe_hair).in(scene::kHair);
 }

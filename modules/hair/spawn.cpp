@@ -11,6 +11,8 @@
 #include "modules/hair/cards/add_cards.h"
 #include "modules/hair/cards/card_file.h"
 #include "modules/hair/components.h"
+#include "modules/hair/dynamics/collider_extension.h"
+#include "modules/hair/dynamics/groom_motion.h"
 #include "modules/hair/groom/load_strands.h"
 #include "modules/light/light_set.h"
 #include "modules/scene/bounds.h"
@@ -142,6 +144,7 @@ Entity spawn_hair(World& world, uint32_t groom, const HairExtension& look,
 }
 
 Result<void> spawn_scene_hair(World& world, const HairKeeper& keeper, uint32_t instance) {
+    if (auto colliders = spawn_scene_colliders(world, instance); !colliders) return colliders;
     const auto& scenes = world.resource<scene::SceneLibrary>();
     const scene::SceneInstance& placed = scenes.instances[instance];
     const asset::SceneAsset& asset = scenes.asset_of(placed);
@@ -157,10 +160,14 @@ Result<void> spawn_scene_hair(World& world, const HairKeeper& keeper, uint32_t i
         const std::filesystem::path groom = asset.path.parent_path() / look->groom;
         auto spawned = spawn_hair(world, keeper.add_groom, groom, *look, placed.nodes[node]);
         if (!spawned) return spawned.error();
-        if (!look->binding) continue;
-        auto carrier = find_binding_node(asset, *look->binding, where);
-        if (!carrier) return carrier.error();
-        if (auto bound = keeper.bind(*spawned, placed.nodes[*carrier]); !bound) return bound;
+        if (look->binding) {
+            auto carrier = find_binding_node(asset, *look->binding, where);
+            if (!carrier) return carrier.error();
+            auto bound = keeper.bind(*spawned, placed.nodes[*carrier]);
+            if (!bound) return bound;
+        }
+        if (!look->motion || !keeper.move) continue;
+        if (auto moving = keeper.move(*spawned, *look->motion); !moving) return moving;
     }
     return {};
 }
@@ -169,7 +176,10 @@ Result<void> spawn_scene_hair(World& world, gpu::Device& device, uint32_t instan
     const auto bind = [&](Entity hair, Entity mesh) {
         return bind_hair(world, device, hair, mesh);
     };
-    return spawn_scene_hair(world, {adding_to(world, device), bind}, instance);
+    const auto move = [&](Entity hair, const MotionChoice& motion) {
+        return add_motion(world, device, hair, motion.motion, motion.guides);
+    };
+    return spawn_scene_hair(world, {adding_to(world, device), bind, move}, instance);
 }
 
 }  // namespace vellus::hair

@@ -37,11 +37,14 @@ Result<uint32_t> add_strands(World& world, gpu::Device& device, const std::strin
 using AddGroom = std::function<Result<uint32_t>(const std::filesystem::path& path, bool upright)>;
 /// Binds a hair entity to a mesh entity, as bind_hair.
 using BindHair = std::function<Result<void>(Entity hair, Entity mesh)>;
+/// Lets the strands of a hair entity move, as add_motion.
+using MoveHair = std::function<Result<void>(Entity hair, const MotionChoice& motion)>;
 
 /// What keeps the data that hair entities refer to.
 struct HairKeeper {
     AddGroom add_groom;
     BindHair bind;
+    MoveHair move;  ///< empty: hair stays as loaded
 };
 
 /// An entity that wears hair: a child of `parent` (kNoEntity: a root).
@@ -54,7 +57,8 @@ Result<Entity> spawn_hair(World& world, gpu::Device& device, const std::filesyst
 Entity spawn_hair(World& world, uint32_t groom, const HairExtension& look,
                   const HairTechniques& techniques, Entity parent);
 
-/// Hair of every node of the instance that has VELLUS_hair; grooms are relative to its file.
+/// Hair of every node of the instance that has VELLUS_hair, and colliders of those that have
+/// VELLUS_collider; grooms are relative to its file.
 Result<void> spawn_scene_hair(World& world, const HairKeeper& keeper, uint32_t instance);
 Result<void> spawn_scene_hair(World& world, gpu::Device& device, uint32_t instance);
 

@@ -21,6 +21,8 @@ constexpr double kFastestTurn = 25.0;
 // Asleep after 1/8 s below 2 mm/s, which a swing passes through only where it has all but ended.
 constexpr float kStillSpeed = 0.002f;
 constexpr uint32_t kStillSteps = 30;
+// Where speeds are not known: 2.5 s without anything to stir it.
+constexpr uint32_t kQuietSteps = 600;
 constexpr double kMoved = 1e-6;
 
 double angle_between(const glm::dquat& a, const glm::dquat& b) {
@@ -33,12 +35,12 @@ RootPose mix(const RootPose& a, const RootPose& b, double t) {
 }
 
 WorldCapsule mix(const WorldCapsule& a, const WorldCapsule& b, double t) {
-    return {glm::mix(a.a, b.a, t), glm::mix(a.b, b.b, t), glm::mix(a.radius, b.radius, t)};
+    return {glm::mix(a.a, b.a, t), glm::mix(a.b, b.b, t), glm::mix(a.radius, b.radius, t), b.id};
 }
 
 bool same(const WorldCapsule& a, const WorldCapsule& b) {
     return glm::distance(a.a, b.a) < kMoved && glm::distance(a.b, b.b) < kMoved &&
-           a.radius == b.radius;
+           a.radius == b.radius && a.id == b.id;
 }
 
 glm::vec4 to_vec4(const glm::dquat& q) {
@@ -77,6 +79,16 @@ bool GuideMotion::disturbed(const MotionSettings& settings, const MotionFrame& f
     return false;
 }
 
+void GuideMotion::preload(const MotionFrame& frame) {
+    std::vector<glm::vec3> gravity;
+    gravity.reserve(guides_.count);
+    for (const RootPose& root : frame.roots) {
+        gravity.emplace_back(glm::conjugate(root.turn) * glm::dvec3(0.0, -9.81, 0.0));
+    }
+    set_preload(guides_, gravity);
+    preloaded_ = true;
+}
+
 void GuideMotion::begin(const MotionFrame& frame) {
     roots_.assign(frame.roots.begin(), frame.roots.end());
     capsules_.assign(frame.capsules.begin(), frame.capsules.end());
@@ -89,6 +101,7 @@ const MotionWork& GuideMotion::prepare(const MotionSettings& settings, const Mot
     frame.capsules = frame.capsules.first(std::min(frame.capsules.size(), kMostCapsules));
     work_.params.substeps = 0;
     if (guides_.count == 0) return work_;
+    if (!preloaded_) preload(frame);
     if (!started_) begin(frame);
     if (asleep_) {
         if (!disturbed(settings, frame)) {
@@ -99,8 +112,8 @@ const MotionWork& GuideMotion::prepare(const MotionSettings& settings, const Mot
         still_steps_ = 0;
         behind_ = 0.0;
     }
+    stirred_ = disturbed(settings, frame);
     settings_ = settings;
-    capsules_.resize(frame.capsules.size());
     const double dt = sane(frame.dt);
     const double travel = glm::distance(frame.roots[0].place, roots_[0].place);
     const bool jumped = travel > kJump && travel > kJumpSpeed * dt;
@@ -181,12 +194,14 @@ void GuideMotion::take_roots(const MotionFrame& frame, double share, bool carry)
 
 void GuideMotion::take_capsules(const MotionFrame& frame, double share, bool carry) {
     const glm::dvec3 anchor = frame.roots[0].place;
-    work_.capsules.resize(capsules_.size());
+    work_.capsules.resize(frame.capsules.size());
+    last_capsules_.swap(capsules_);
+    capsules_.resize(frame.capsules.size());
     for (size_t i = 0; i < capsules_.size(); ++i) {
-        const bool fresh = carry || capsules_[i].radius == 0.0;
-        const WorldCapsule from = fresh ? frame.capsules[i] : capsules_[i];
-        const WorldCapsule to = mix(from, frame.capsules[i], share);
-        capsules_[i] = to;
+        const WorldCapsule& now = frame.capsules[i];
+        const auto last = std::ranges::find(last_capsules_, now.id, &WorldCapsule::id);
+        const WorldCapsule from = carry || last == last_capsules_.end() ? now : *last;
+        const WorldCapsule to = capsules_[i] = mix(from, now, share);
         work_.capsules[i] = {.a0 = glm::vec3(from.a - anchor),
                              .radius = static_cast<float>(to.radius),
                              .b0 = glm::vec3(from.b - anchor),
@@ -201,6 +216,11 @@ bool GuideMotion::advance(const MotionSettings& settings, const MotionFrame& fra
     simulate(guides_, work.params, work.roots, work.capsules, state_);
     note_rest(work.params.substeps);
     return true;
+}
+
+void GuideMotion::solved_elsewhere() {
+    still_steps_ = stirred_ ? 0 : still_steps_ + work_.params.substeps;
+    asleep_ = still_steps_ >= kQuietSteps;
 }
 
 void GuideMotion::note_rest(uint32_t steps) {

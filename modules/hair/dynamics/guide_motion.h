@@ -27,6 +27,7 @@ struct WorldCapsule {
     glm::dvec3 a{0.0};
     glm::dvec3 b{0.0};
     double radius = 0.0;
+    uint64_t id = 0;  ///< the same from frame to frame, for its speed
 };
 
 /// What a frame brings to a groom in motion.
@@ -56,7 +57,8 @@ struct MotionWork {
 };
 
 /// Guides of one groom in motion, on the CPU. Everything near 1 in size reaches the solver: roots
-/// and capsules are taken in double relative to the first root.
+/// and capsules are taken in double relative to the first root. The groom is taken to rest as it is
+/// in the first frame's pose: set_preload with that frame's roots.
 class GuideMotion {
   public:
     explicit GuideMotion(GuideSet guides);
@@ -65,9 +67,13 @@ class GuideMotion {
     bool advance(const MotionSettings& settings, const MotionFrame& frame);
     /// The first half of it: takes the frame in and says what to solve. For solvers elsewhere.
     const MotionWork& prepare(const MotionSettings& settings, const MotionFrame& frame);
+    /// The second half where another solver did the work, whose state is not seen here: hair counts
+    /// as at rest once nothing has stirred it for 2.5 s.
+    void solved_elsewhere();
     /// Back to the groom as loaded, at rest, wherever the roots are next.
     void reset();
 
+    [[nodiscard]] const MotionWork& work() const { return work_; }
     [[nodiscard]] const GuideSet& guides() const { return guides_; }
     [[nodiscard]] const GuideState& state() const { return state_; }
     [[nodiscard]] const MotionCounts& counts() const { return counts_; }
@@ -75,6 +81,7 @@ class GuideMotion {
 
   private:
     [[nodiscard]] bool disturbed(const MotionSettings& settings, const MotionFrame& frame) const;
+    void preload(const MotionFrame& frame);
     void begin(const MotionFrame& frame);
     void set_params(const MotionSettings& settings, const MotionFrame& frame, uint32_t steps,
                     bool carry);
@@ -89,10 +96,13 @@ class GuideMotion {
     // Where things were when the solver stopped, up to a step before the frame's end.
     std::vector<RootPose> roots_;
     std::vector<WorldCapsule> capsules_;
+    std::vector<WorldCapsule> last_capsules_;
     MotionSettings settings_;
     double behind_ = 0.0;  ///< seconds from there to the frame's end
     uint32_t still_steps_ = 0;
+    bool stirred_ = false;
     bool started_ = false;
+    bool preloaded_ = false;
     bool asleep_ = false;
 };
 

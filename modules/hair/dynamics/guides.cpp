@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <glm/gtc/quaternion.hpp>
 
 #include "modules/hair/dynamics/rod.h"
 
@@ -77,9 +76,10 @@ GuideSet make_guides(std::span<const std::vector<glm::vec3>> strands, uint32_t l
     return guides;
 }
 
-void set_preload(GuideSet& guides, glm::vec3 gravity) {
-    const glm::dvec3 g(gravity);
+void set_preload(GuideSet& guides, std::span<const glm::vec3> gravity) {
+    assert(gravity.size() == guides.count);
     for (uint32_t guide = 0; guide < guides.count; ++guide) {
+        const glm::dvec3 g(gravity[guide]);
         glm::dvec3 moment(0.0);
         double mass = 0.0;
         double size_after = 0.0;
@@ -110,14 +110,9 @@ GuideState rest_state(const GuideSet& guides) {
 
 std::vector<glm::vec3> guide_points(const GuideSet& guides, const GuideState& state,
                                     uint32_t guide) {
-    std::vector<glm::vec3> points{glm::vec3(0.0f)};
-    for (uint32_t i = 0; i < guides.links; ++i) {
-        const glm::quat turn(state.rotation.at(3, i)[guide], state.rotation.at(0, i)[guide],
-                             state.rotation.at(1, i)[guide], state.rotation.at(2, i)[guide]);
-        const glm::vec3 link(guides.rest.at(0, i)[guide], guides.rest.at(1, i)[guide],
-                             guides.rest.at(2, i)[guide]);
-        points.push_back(points.back() + turn * link);
-    }
+    std::vector<glm::vec3> points;
+    visit_guide_points(guides, state, guide,
+                       [&](const glm::vec3& point) { points.push_back(point); });
     return points;
 }
 

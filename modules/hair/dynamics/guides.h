@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <span>
 #include <vector>
 
@@ -40,12 +41,12 @@ struct GuideSet {
 /// without length becomes links of no length, which stay where their root is.
 GuideSet make_guides(std::span<const std::vector<glm::vec3>> strands, uint32_t links = kGuideLinks);
 
-/// Sets the preload so that the groom rests as it is under `gravity` (as the guides are
-/// turned, m/s²): the
+/// Sets the preload so that the groom rests as it is under `gravity` (m/s², as each guide's rest is
+/// turned): the
 /// moment at each joint of the weight beyond it, per unit of mass per length. After J. Hsu et al.,
 /// "Sag-Free Initialization for Strand-Based Hybrid Hair Simulation" (SIGGRAPH 2023); a chain that
 /// hangs from its root alone has it in closed form.
-void set_preload(GuideSet& guides, glm::vec3 gravity);
+void set_preload(GuideSet& guides, std::span<const glm::vec3> gravity);
 
 /// Where guides are in their motion.
 struct GuideState {
@@ -58,7 +59,21 @@ struct GuideState {
 /// As groomed, at rest.
 GuideState rest_state(const GuideSet& guides);
 
-/// Points of a guide from its root, in its root's frame: links + 1 of them.
+/// Calls `visit(point)` for the links + 1 points of a guide, from its root and in its root's frame.
+template <class Visit>
+void visit_guide_points(const GuideSet& guides, const GuideState& state, uint32_t guide,
+                        const Visit& visit) {
+    glm::vec3 point(0.0f);
+    visit(point);
+    for (uint32_t i = 0; i < guides.links; ++i) {
+        const glm::quat turn(state.rotation.at(3, i)[guide], state.rotation.at(0, i)[guide],
+                             state.rotation.at(1, i)[guide], state.rotation.at(2, i)[guide]);
+        point += turn * glm::vec3(guides.rest.at(0, i)[guide], guides.rest.at(1, i)[guide],
+                                  guides.rest.at(2, i)[guide]);
+        visit(point);
+    }
+}
+/// The same as a list.
 std::vector<glm::vec3> guide_points(const GuideSet& guides, const GuideState& state,
                                     uint32_t guide);
 

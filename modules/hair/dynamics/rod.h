@@ -17,12 +17,8 @@ using real = Lanes;
 using rmask = Lanes::Bits;
 using rvec3 = RodVec3<Lanes>;
 using rvec4 = RodVec4<Lanes>;
-using hair::abs;
-using hair::floor;
-using hair::max;
-using hair::min;
-using hair::sqrt;
-// clang-format off: each builds on the one before
+// Each builds on the one before.
+// clang-format off
 #include "hair/dynamics/rod_math.glsl"
 #include "hair/dynamics/rod_link.glsl"
 #include "hair/dynamics/rod_contact.glsl"

@@ -14,6 +14,8 @@ namespace vellus::hair {
 /// Guides that the processor works on at once. Guides are padded to a multiple of it.
 constexpr uint32_t kRodLanes = 4;
 
+namespace lanes {
+
 /// Four floats side by side; every lane computes what one float alone would.
 struct Lanes {
     using Floats = float __attribute__((vector_size(16)));
@@ -68,15 +70,7 @@ inline Lanes floor(Lanes a) {
     return t > a.v ? t - 1.0f : t;
 }
 
-inline float choose(bool condition, float yes, float no) {
-    return condition ? yes : no;
-}
-inline double choose(bool condition, double yes, double no) {
-    return condition ? yes : no;
-}
-inline bool any_lane(bool condition) {
-    return condition;
-}
+}  // namespace lanes
 
 template <class T>
 struct RodVec3 {

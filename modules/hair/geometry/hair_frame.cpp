@@ -10,21 +10,6 @@ namespace vellus::hair {
 
 namespace {
 
-bool in_view(const scene::Box& box, const scene::ViewState& view) {
-    // Outside if all corners lie beyond one plane of the frustum; near is w > 0 with reversed
-    // depth.
-    std::array<int, 5> beyond{};
-    for (const glm::dvec3& corner : box.corners()) {
-        const glm::vec4 clip = view.view.view_projection * glm::vec4(view.relative(corner), 1.0f);
-        beyond[0] += clip.x < -clip.w ? 1 : 0;
-        beyond[1] += clip.x > clip.w ? 1 : 0;
-        beyond[2] += clip.y < -clip.w ? 1 : 0;
-        beyond[3] += clip.y > clip.w ? 1 : 0;
-        beyond[4] += clip.w <= 0.0f ? 1 : 0;
-    }
-    return std::ranges::none_of(beyond, [](int corners) { return corners == 8; });
-}
-
 /// Pixels that the box may touch; all where it reaches behind the camera.
 PixelRect pixels_of(const scene::Box& box, const scene::ViewState& view) {
     const glm::vec2 size(view.view.size);
@@ -183,6 +168,21 @@ std::optional<HairDeform> describe_deform(const HairBinding* binding, const Hair
 
 }  // namespace
 
+bool in_view(const scene::Box& box, const scene::ViewState& view) {
+    // Outside if all corners lie beyond one plane of the frustum; near is w > 0 with reversed
+    // depth.
+    std::array<int, 5> beyond{};
+    for (const glm::dvec3& corner : box.corners()) {
+        const glm::vec4 clip = view.view.view_projection * glm::vec4(view.relative(corner), 1.0f);
+        beyond[0] += clip.x < -clip.w ? 1 : 0;
+        beyond[1] += clip.x > clip.w ? 1 : 0;
+        beyond[2] += clip.y < -clip.w ? 1 : 0;
+        beyond[3] += clip.y > clip.w ? 1 : 0;
+        beyond[4] += clip.w <= 0.0f ? 1 : 0;
+    }
+    return std::ranges::none_of(beyond, [](int corners) { return corners == 8; });
+}
+
 std::string_view text(EffectReason reason) {
     switch (reason) {
         case EffectReason::kChosen:
@@ -225,7 +225,7 @@ void gather_hair(HairQuery hair, Res<const HairLibrary> library, Res<const HairB
                   const scene::PreviousWorldTransform& before, const scene::WorldBounds& bounds,
                   const HairMaterial& material, const HairWidth& width, const HairShadow& shadow,
                   const HairTechniques& chosen, const HairBinding* binding, const HairMoves* moves,
-                  const HairDetail* detail) {
+                  const HairDetail* detail, const HairMotion* motion) {
         const LibraryGroom& groom = library->grooms[item.groom];
         HairEffects effects =
             plan(item, groom, material, chosen, in_view(bounds.box, *view), lights->block);
@@ -235,6 +235,10 @@ void gather_hair(HairQuery hair, Res<const HairLibrary> library, Res<const HairB
                                 : share_on_screen(groom, world.matrix, bounds.box, *view);
         const StrandLevel level = level_for(groom, share);
         effects.strands = level.strands;
+        if (motion != nullptr) {
+            effects.motion = motion->reason;
+            effects.solver = motion->solver;
+        }
         frame->effects.push_back(effects);
         HairDraw draw =
             describe_draw(groom, level, world.matrix, material, width, effects.techniques);

@@ -8,6 +8,7 @@
 #include "modules/character/components.h"
 #include "modules/hair/binding/hair_pose.h"
 #include "modules/hair/components.h"
+#include "modules/hair/dynamics/components.h"
 #include "modules/hair/scattering/fibre_library.h"
 #include "modules/light/light_set.h"
 #include "modules/scene/bounds.h"
@@ -117,6 +118,8 @@ struct HairEffects {
     EffectReason scattering = EffectReason::kChosen;
     EffectReason multiple = EffectReason::kChosen;
     EffectReason environment = EffectReason::kChosen;
+    MotionReason motion = MotionReason::kNone;
+    MotionSolver solver = MotionSolver::kProcessor;
 };
 
 /// All hair of this frame. Resource, written by gather_hair.
@@ -144,7 +147,11 @@ using HairBoundsQuery = Query<const Hair, const scene::WorldTransform, scene::Wo
 using HairQuery =
     Query<Entity, const Hair, const scene::WorldTransform, const scene::PreviousWorldTransform,
           const scene::WorldBounds, const HairMaterial, const HairWidth, const HairShadow,
-          const HairTechniques, const HairBinding*, const HairMoves*, const HairDetail*>;
+          const HairTechniques, const HairBinding*, const HairMoves*, const HairDetail*,
+          const HairMotion*>;
+
+/// Whether any of the box may lie inside the picture.
+bool in_view(const scene::Box& box, const scene::ViewState& view);
 
 /// System: boxes of hair in the world, widened by a strand.
 void update_hair_bounds(HairBoundsQuery hair, Res<const HairLibrary> library);

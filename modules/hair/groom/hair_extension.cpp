@@ -156,6 +156,7 @@ Result<HairExtension> parse_hair_extension(std::string_view json, const std::str
     read_material(fields, hair.material);
     read_techniques(fields, hair.techniques);
     read_binding(fields, hair.binding);
+    fields.object("motion", [&](JsonFields& inner) { read_motion(inner, hair.motion.emplace()); });
     if (fields.error()) return *fields.error();
     hair.warnings = fields.unknown_fields();
     return hair;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/platform/result.h"
+#include "modules/hair/dynamics/motion_extension.h"
 #include "modules/hair/groom/hair_material.h"
 
 namespace vellus::hair {
@@ -44,6 +45,8 @@ struct HairExtension {
     TechniqueIds techniques;
     /// Empty: the groom moves rigidly with its node.
     std::optional<HairBindingChoice> binding;
+    /// Empty: strands do not move on their own.
+    std::optional<MotionChoice> motion;
     /// Unknown fields and clamped values, one line each; the caller logs them.
     std::vector<std::string> warnings;
 

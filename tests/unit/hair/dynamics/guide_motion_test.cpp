@@ -19,7 +19,6 @@ using test::roots_on;
 using test::sample_hair;
 using test::turn_about;
 
-const glm::dvec3 kGravity(0.0, -9.81, 0.0);
 // Quaternions are unit to 1e-7 and lengths differences of sums of 15 floats of up to 0.3 m.
 constexpr double kLengthError = 2e-5;
 
@@ -29,9 +28,7 @@ struct Pose {
 };
 
 GuideMotion make_motion(uint32_t count = 32) {
-    GuideSet guides = make_guides(sample_hair(count));
-    set_preload(guides, glm::vec3(kGravity));
-    return GuideMotion(std::move(guides));
+    return GuideMotion(make_guides(sample_hair(count)));
 }
 
 /// A head in the frame: one frame of `dt` that ends at `pose`.
@@ -202,7 +199,6 @@ TEST(GuideMotion, LinksWithoutLength) {
     for (uint32_t i = 3; i < 6; ++i) {
         for (uint32_t c = 0; c < 3; ++c) guides.rest.at(c, i)[2] = 0.0f;
     }
-    set_preload(guides, glm::vec3(kGravity));
     GuideMotion motion(std::move(guides));
     for (int frame = 0; frame < 120; ++frame) {
         advance(motion, 1.0 / 60.0, wander(frame / 60.0));
@@ -243,8 +239,6 @@ TEST(GuideMotion, NodeScaleChangesUnitsOnly) {
     }
     GuideSet metres = make_guides(strands);
     GuideSet centimetres = make_guides(in_cm);
-    set_preload(metres, glm::vec3(kGravity));
-    set_preload(centimetres, glm::vec3(kGravity));
     GuideMotion a(metres);
     GuideMotion b(centimetres);
     for (int frame = 0; frame < 90; ++frame) {
@@ -293,9 +287,10 @@ TEST(GuideMotion, CollidersAreNotEntered) {
                         turn_about({0, 1, 0}, 1.2 * std::sin(4.0 * t)) *
                             turn_about({1, 0, 0}, 0.6 * std::sin(3.0 * t))};
         const glm::dvec3 hand(0.16 * std::cos(3.0 * t), -0.05, 0.16 * std::sin(3.0 * t));
-        const std::vector<WorldCapsule> capsules{{{0, 0, 0}, {0, 0, 0}, 0.088},
-                                                 {{-0.2, -0.22, 0}, {0.2, -0.22, 0}, 0.06},
-                                                 {hand, hand + glm::dvec3(0.0, -0.2, 0.0), 0.03}};
+        const std::vector<WorldCapsule> capsules{
+            {{0, 0, 0}, {0, 0, 0}, 0.088, 1},
+            {{-0.2, -0.22, 0}, {0.2, -0.22, 0}, 0.06, 2},
+            {hand, hand + glm::dvec3(0.0, -0.2, 0.0), 0.03, 3}};
         advance(motion, 1.0 / 60.0, pose, {.capsules = capsules});
         ASSERT_TRUE(all_finite(motion.state()));
         for (const WorldCapsule& capsule : capsules) {

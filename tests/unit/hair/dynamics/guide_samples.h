@@ -43,6 +43,11 @@ inline std::vector<Strand> sample_hair(uint32_t count, int points = 24) {
     return strands;
 }
 
+/// Gravity as if guides stood upright.
+inline void preload_upright(GuideSet& guides) {
+    set_preload(guides, std::vector<glm::vec3>(guides.count, glm::vec3(0.0f, -9.81f, 0.0f)));
+}
+
 /// Still air, gravity, the default hair.
 inline glsl::RodParams sample_params(const MotionSettings& settings = {}) {
     glsl::RodParams p{};

@@ -28,9 +28,14 @@ inline double sqrt(double a) {
 inline double floor(double a) {
     return std::floor(a);
 }
-using hair::any_lane;
-using hair::choose;
-// clang-format off: each builds on the one before
+inline double choose(bool condition, double yes, double no) {
+    return condition ? yes : no;
+}
+inline bool any_lane(bool condition) {
+    return condition;
+}
+// Each builds on the one before.
+// clang-format off
 #include "hair/dynamics/rod_math.glsl"
 #include "hair/dynamics/rod_link.glsl"
 #include "hair/dynamics/rod_contact.glsl"

@@ -182,7 +182,7 @@ TEST(Rod, TwistAtTheRootTurnsABentTip) {
 TEST(Rod, LanesComputeWhatDoubleComputes) {
     const auto strands = test::sample_hair(13);
     GuideSet guides = make_guides(strands);
-    set_preload(guides, {0.0f, -9.81f, 0.0f});
+    test::preload_upright(guides);
     GuideState state = rest_state(guides);
     std::vector<Guide> exact;
     for (uint32_t g = 0; g < guides.count; ++g) exact.emplace_back(guides, g);
@@ -224,7 +224,7 @@ TEST(Rod, LanesComputeWhatDoubleComputes) {
 TEST(Rod, GroomRestsAsGroomedUnderGravity) {
     const auto strands = test::sample_hair(64);
     GuideSet guides = make_guides(strands);
-    set_preload(guides, {0.0f, -9.81f, 0.0f});
+    test::preload_upright(guides);
     GuideState state = rest_state(guides);
     const std::vector<glsl::RodRoot> roots(guides.count, still_root());
     for (int frame = 0; frame < 240; ++frame) simulate(guides, sample_params(), roots, {}, state);

@@ -1,0 +1,154 @@
+#include "modules/hair/dynamics/groom_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+
+#include "engine/platform/jobs.h"
+#include "modules/hair/binding/components.h"
+
+namespace vellus::hair {
+
+namespace {
+
+// Less than this, a hundredth of a millimetre at the end of 10 cm, counts as unbent.
+constexpr float kUnbent = 1e-4f;
+
+/// A strand's points where the guide is at rest: in its root's frame where bound, else as loaded.
+std::vector<glm::vec3> rest_points(const LibraryGroom& groom, const BoundRoots* bound,
+                                   uint32_t strand) {
+    const auto& points = bound != nullptr ? bound->local : groom.positions;
+    return {points.begin() + groom.strand_begin[strand],
+            points.begin() + groom.strand_begin[strand + 1]};
+}
+
+/// The rotation of a map without shear; of one with, a near one.
+glm::dquat rotation_of(const glm::dmat3& m) {
+    const glm::dvec3 x = glm::normalize(m[0]);
+    const glm::dvec3 y = glm::normalize(m[1] - x * glm::dot(x, m[1]));
+    return glm::normalize(glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y))));
+}
+
+template <class T>
+Result<void> upload(gpu::Device& device, std::span<const T> values, const char* name,
+                    gpu::Buffer& out) {
+    auto made = gpu::Buffer::upload_span(device, values, name);
+    if (!made) return made.error();
+    out = *std::move(made);
+    return {};
+}
+
+Result<void> make_buffers(gpu::Device& device, const LibraryGroom& groom,
+                          const GuideSelection& chosen, GroomMotion& out) {
+    if (auto done = upload(device, std::span<const StrandGuides>(chosen.follow),
+                           "hair strand guides", out.follow);
+        !done) {
+        return done;
+    }
+    if (auto done = upload(device, std::span<const uint32_t>(groom.strand_begin),
+                           "hair strand begins", out.strand_begin);
+        !done) {
+        return done;
+    }
+    auto turns = gpu::Buffer::create(device, kTurnSlots * out.turn_bytes(),
+                                     gpu::MemoryKind::kUpload, "hair guide turns");
+    if (!turns) return turns.error();
+    out.turns = *std::move(turns);
+    return {};
+}
+
+const BoundRoots* bound_roots(const World& world, const HairBinding* binding) {
+    if (binding == nullptr) return nullptr;
+    return &world.resource<HairBindings>().list[binding->roots].roots;
+}
+
+}  // namespace
+
+Result<void> add_motion(World& world, gpu::Device& device, Entity hair, const HairMotion& motion,
+                        uint32_t guides) {
+    const Hair* const worn = world.get<Hair>(hair);
+    assert(worn != nullptr);
+    const LibraryGroom& groom = world.resource<HairLibrary>().grooms[worn->groom];
+    const BoundRoots* const bound = bound_roots(world, world.get<HairBinding>(hair));
+    const size_t strands = groom.strand_begin.empty() ? 0 : groom.strand_begin.size() - 1;
+    const uint32_t count = guides == 0 ? default_guide_count(strands) : guides;
+    const GuideSelection chosen = select_guides(groom.positions, groom.strand_begin, count);
+    std::vector<std::vector<glm::vec3>> lines;
+    lines.reserve(chosen.guides.size());
+    for (const uint32_t strand : chosen.guides) lines.push_back(rest_points(groom, bound, strand));
+    auto made = std::make_unique<GroomMotion>(make_guides(lines));
+    made->entity = hair;
+    made->strands = chosen.guides;
+    made->spread = chosen.spread;
+    made->roots.resize(chosen.guides.size());
+    if (auto done = make_buffers(device, groom, chosen, *made); !done) return done;
+
+    remove_motion(world, hair);
+    auto& list = world.resource<HairMotions>().list;
+    HairMotion component = motion;
+    component.slot = static_cast<uint32_t>(list.size());
+    list.push_back(std::move(made));
+    world.add(hair, component);
+    world.add(hair, HairMoves{});
+    return {};
+}
+
+bool remove_motion(World& world, Entity hair) {
+    const HairMotion* const motion = world.get<HairMotion>(hair);
+    if (motion == nullptr) return false;
+    auto& list = world.resource<HairMotions>().list;
+    if (motion->slot < list.size()) list[motion->slot]->entity = kNoEntity;
+    world.remove<HairMotion>(hair);
+    world.remove<HairMoves>(hair);
+    return true;
+}
+
+bool place_roots(const BoundRoots* bound, const HairPose* pose, const glm::dmat4& world,
+                 GroomMotion& out, double& scale) {
+    const GuideSet& guides = out.motion.guides();
+    if (bound != nullptr && pose != nullptr) {
+        if (pose->handedness < 0.0f) return false;
+        scale = static_cast<double>(pose->scale[0]);
+        parallel_ranges(guides.count, 64, [&](size_t first, size_t last) {
+            for (size_t g = first; g < last; ++g) {
+                const RootFrame frame = root_frame(*bound, *pose, out.strands[g], PoseOf::kNow);
+                out.roots[g] = {frame.position + frame.axes * glm::dvec3(guides.root[g]),
+                                rotation_of(frame.axes)};
+            }
+        });
+        return scale > 0.0;
+    }
+    const glm::dmat3 axes(world);
+    const double volume = glm::determinant(axes);
+    if (volume <= 0.0) return false;
+    scale = std::cbrt(volume);
+    const glm::dquat turn = rotation_of(axes);
+    for (uint32_t g = 0; g < guides.count; ++g) {
+        out.roots[g] = {glm::dvec3(world * glm::dvec4(glm::dvec3(guides.root[g]), 1.0)), turn};
+    }
+    return true;
+}
+
+void write_turns(GroomMotion& groom) {
+    const GuideSet& guides = groom.motion.guides();
+    const GuideState& state = groom.motion.state();
+    groom.slot = (groom.slot + 1) % kTurnSlots;
+    auto* const out =
+        reinterpret_cast<uint64_t*>(groom.turns.mapped() + groom.slot * groom.turn_bytes());
+    float most = 0.0f;
+    for (uint32_t g = 0; g < guides.count; ++g) {
+        const glm::quat root(groom.roots[g].turn);
+        const glm::quat back = glm::conjugate(root);
+        for (uint32_t i = 0; i < guides.links; ++i) {
+            const glm::quat local(state.rotation.at(3, i)[g], state.rotation.at(0, i)[g],
+                                  state.rotation.at(1, i)[g], state.rotation.at(2, i)[g]);
+            const glm::quat turn = root * local * back;
+            most = std::max({most, std::abs(local.x), std::abs(local.y), std::abs(local.z)});
+            out[size_t{g} * guides.links + i] =
+                glm::packSnorm4x16(glm::vec4(turn.x, turn.y, turn.z, turn.w));
+        }
+    }
+    groom.bent = most > kUnbent;
+}
+
+}  // namespace vellus::hair

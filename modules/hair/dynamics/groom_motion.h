@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/ecs/ecs.h"
+#include "engine/gpu/device.h"
+#include "modules/hair/binding/hair_pose.h"
+#include "modules/hair/components.h"
+#include "modules/hair/dynamics/components.h"
+#include "modules/hair/dynamics/device_guides.h"
+#include "modules/hair/dynamics/guide_motion.h"
+#include "modules/hair/dynamics/guide_selection.h"
+#include "modules/scene/bounds.h"
+
+namespace vellus::hair {
+
+/// One groom in motion: its guides, who follows them, and what the device gets each frame.
+struct GroomMotion {
+    explicit GroomMotion(GuideSet guides) : motion(std::move(guides)) {}
+
+    Entity entity;
+    GuideMotion motion;
+    std::vector<uint32_t> strands;  ///< which strand each guide is
+    float spread = 0.0f;            ///< of GuideSelection
+    gpu::Buffer follow;             ///< StrandGuides by strand
+    gpu::Buffer strand_begin;
+    gpu::Buffer turns;  ///< kTurnSlots times guide by guide, link by link: four signed 16 bit
+    uint32_t slot = 0;
+    uint32_t previous_slot = 0;
+    bool bent = false;  ///< strands differ from where their roots carry them
+
+    std::optional<DeviceGuides> device;  ///< once the device has solved
+    bool solve = false;                  ///< it has work this frame
+
+    std::vector<RootPose> roots;  ///< of this frame
+    std::vector<WorldCapsule> capsules;
+    scene::Box box;  ///< around the strands when they last moved, world
+    std::optional<uint64_t> last_frame;
+    uint64_t shown_frame = 0;  ///< in which the turns were last drawn with
+
+    [[nodiscard]] uint64_t turn_bytes() const {
+        return uint64_t{motion.guides().count} * motion.guides().links * sizeof(glm::uvec2);
+    }
+};
+
+/// Everything in motion. Resource; entries stay where they are.
+struct HairMotions {
+    std::vector<std::unique_ptr<GroomMotion>> list;
+};
+
+/// Lets the strands of a hair entity move: chooses its guides (0: one strand in 24) and gives it
+/// HairMotion and HairMoves, in place of those it has. Bind it first. Errors name the buffer that
+/// did not fit.
+Result<void> add_motion(World& world, gpu::Device& device, Entity hair,
+                        const HairMotion& motion = {}, uint32_t guides = 0);
+/// Strands move rigidly from now on; false where they did before.
+bool remove_motion(World& world, Entity hair);
+
+/// Roots of all guides in the world, and the scale from guides to it; false where the groom is
+/// mirrored, which no rotation does. `pose` is null for grooms their node carries.
+bool place_roots(const BoundRoots* bound, const HairPose* pose, const glm::dmat4& world,
+                 GroomMotion& out, double& scale);
+
+/// Writes how guides' links are turned from where their roots carry them into the next slot, and
+/// notes whether any is (`bent`).
+void write_turns(GroomMotion& groom);
+
+}  // namespace vellus::hair

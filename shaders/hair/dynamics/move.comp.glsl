@@ -1,0 +1,61 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common/portable.glsl"
+#include "hair/geometry/strands.glsl"
+
+// Bends strands that their roots have carried, this frame and the last, as their guides bend. One thread
+// a strand.
+layout(local_size_x = 64) in;
+struct StrandGuides {
+    uvec3 guides;
+    vec3 weights;
+    vec3 reach;
+};
+layout(buffer_reference, scalar) readonly buffer Follow { StrandGuides at[]; };
+layout(buffer_reference, scalar) buffer Points { vec3 at[]; };
+layout(push_constant, scalar) uniform Push {
+    Points points;
+    Points previous_points;
+    Uints strand_begin;
+    Uints parameters;
+    Follow follow;
+    Uvec2s turns;  // four signed 16 bit each, guide by guide
+    Uvec2s previous_turns;
+    uint strand_count;
+    uint links;
+};
+
+bool before = false;
+
+vec4 guide_turn(uint guide, uint link) {
+    uint i = guide * links + link;
+    uvec2 packed = before ? previous_turns.at[i] : turns.at[i];
+    return vec4(unpackSnorm2x16(packed.x), unpackSnorm2x16(packed.y));
+}
+
+#include "hair/dynamics/transfer.glsl"
+
+void bend(Points points_of, uint first, uint last, StrandGuides guides) {
+    vec3 carried = points_of.at[first];
+    vec3 point = carried;
+    float u = 0.0;
+    for (uint i = first + 1u; i < last; ++i) {
+        float next_u = point_parameter(parameters, i);
+        vec4 turn = strand_turn(guides.guides, guides.weights, guides.reach, 0.5 * (u + next_u), links);
+        vec3 next = points_of.at[i];
+        point += turn_vector(turn, next - carried);
+        points_of.at[i] = point;
+        carried = next;
+        u = next_u;
+    }
+}
+
+void main() {
+    uint strand = gl_GlobalInvocationID.x;
+    if (strand >= strand_count) return;
+    uint first = strand_begin.at[strand], last = strand_begin.at[strand + 1u];
+    StrandGuides guides = follow.at[strand];
+    bend(points, first, last, guides);
+    before = true;
+    bend(previous_points, first, last, guides);
+}
