@@ -114,7 +114,7 @@ TEST(Transfer, StrandsTurnWithTheirGuidesAndKeepTheirShape) {
     EXPECT_NEAR(std::abs(root.w), 1.0f, 1e-6f);
     // A vector turns as the quaternion says, and keeps its length.
     const glm::vec3 v(0.01f, -0.02f, 0.005f);
-    const glm::vec3 turned = Transfer::turn_vector(test::to_vec4(q), v);
+    const glm::vec3 turned = transfer.turn_vector(test::to_vec4(q), v);
     EXPECT_LT(glm::distance(turned, glm::vec3(q * glm::dvec3(v))), 1e-8f);
 }
 

@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 
-#include "modules/hair/dynamics/collider_extension.h"
+#include "modules/hair/binding/deform_passes.h"
 #include "modules/hair/dynamics/groom_motion.h"
 #include "modules/hair/dynamics/move_passes.h"
 #include "modules/hair/dynamics/simulate.h"
@@ -12,8 +13,8 @@
 namespace vellus::hair {
 namespace {
 
-using test::HairScene;
-using MotionGpu = test::GpuTest;
+using vellus::test::HairScene;
+using MotionGpu = vellus::test::GpuTest;
 
 constexpr uint32_t kSize = 96;
 
@@ -107,7 +108,7 @@ StrandData curtain(int strands = 40) {
         }
         lines.push_back(line);
     }
-    return test::make_strands(lines, 0.004f);
+    return vellus::test::make_strands(lines, 0.004f);
 }
 
 struct Scene {
