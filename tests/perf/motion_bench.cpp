@@ -132,7 +132,7 @@ const Registration kMotion(
          auto options = std::make_shared<Options>();
          app.add_option("--guides", options->guides, "Numbers of guides");
          app.add_option("--links", options->links, "Links of each")
-             ->check(CLI::Range(1, glsl::kRodMaxLinks));
+             ->check(CLI::Range(1, hair::glsl::kRodMaxLinks));
          app.add_option("--frames", options->frames, "Frames measured")->check(CLI::PositiveNumber);
          return [options] { return run(*options); };
      }});
