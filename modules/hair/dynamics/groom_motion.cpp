@@ -5,6 +5,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "engine/platform/jobs.h"
+#include "engine/platform/log.h"
 #include "modules/hair/binding/components.h"
 
 namespace vellus::hair {
@@ -69,6 +70,10 @@ Result<void> add_motion(World& world, gpu::Device& device, Entity hair, const Ha
     const Hair* const worn = world.get<Hair>(hair);
     assert(worn != nullptr);
     const LibraryGroom& groom = world.resource<HairLibrary>().grooms[worn->groom];
+    if (groom.cards) {
+        log_warning("{}: cards follow their roots; only strands move on their own", groom.name);
+        return {};
+    }
     const BoundRoots* const bound = bound_roots(world, world.get<HairBinding>(hair));
     const size_t strands = groom.strand_begin.empty() ? 0 : groom.strand_begin.size() - 1;
     const uint32_t count = guides == 0 ? default_guide_count(strands) : guides;
