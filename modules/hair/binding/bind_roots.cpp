@@ -13,7 +13,7 @@ namespace vellus::hair {
 namespace {
 
 constexpr size_t kGrain = 64;
-constexpr size_t kMostClusters = 256;
+constexpr size_t kMostClusters = 512;
 constexpr uint32_t kUnused = ~0U;
 /// Below this cosine between smooth and flat normal the smooth one lies too much in the triangle.
 constexpr double kFlatCosine = 0.3;
@@ -74,38 +74,56 @@ void compact_vertices(const RestMesh& mesh, BoundRoots& bound) {
     }
 }
 
-/// Boxes of runs of strands in the frame of the middle one. Where a run bends its strands turn a
-/// little against each other: the box gets a tenth of their length, a quarter of the run's width.
-void cluster_strands(std::span<const RestFrame> frames, BoundRoots& bound) {
-    const size_t strands = bound.roots.size();
-    const size_t count = std::min(strands, kMostClusters);
-    bound.clusters.resize(count);
-    const double scale = std::abs(bound.rest_scale);
-    for (size_t c = 0; c < count; ++c) {
-        const size_t first = strands * c / count;
-        const size_t last = strands * (c + 1) / count;
-        const size_t middle = (first + last) / 2;
-        glm::dvec3 low(std::numeric_limits<double>::max());
-        glm::dvec3 high(std::numeric_limits<double>::lowest());
-        double reach = 0.0;
-        double spread = 0.0;
-        for (size_t s = first; s < last; ++s) {
-            const BoundRoot& root = bound.roots[s];
-            spread = std::max(spread,
-                              glm::distance(frames[s].position, frames[middle].position) / scale);
-            for (uint32_t i = root.first_point; i < root.first_point + root.point_count; ++i) {
-                const glm::dvec3 local(bound.local[i]);
-                const glm::dvec3 p = frames[s].position + frames[s].axes * local * scale;
-                const glm::dvec3 here =
-                    glm::transpose(frames[middle].axes) * (p - frames[middle].position) / scale;
-                low = glm::min(low, here);
-                high = glm::max(high, here);
-                reach = std::max(reach, glm::length(local));
-            }
+/// First strands of runs whose roots lie within `radius` of the run's first; one past the last one.
+std::vector<uint32_t> runs_within(std::span<const RestFrame> frames, double radius) {
+    std::vector<uint32_t> begin = {0};
+    for (uint32_t s = 1; s < frames.size(); ++s) {
+        if (glm::distance(frames[s].position, frames[begin.back()].position) > radius) {
+            begin.push_back(s);
         }
-        const double pad = last - first > 1 ? 0.1 * reach + 0.25 * spread : 1e-6 * reach;
-        bound.clusters[c] = {static_cast<uint32_t>(middle), glm::vec3(low - pad),
-                             glm::vec3(high + pad)};
+    }
+    begin.push_back(static_cast<uint32_t>(frames.size()));
+    return begin;
+}
+
+/// The box of a run in the frame of its middle strand. Where a run bends its strands turn a little
+/// against each other: the box gets a tenth of their length and a quarter of the run's radius.
+BoundCluster cluster_of(std::span<const RestFrame> frames, const BoundRoots& bound, uint32_t first,
+                        uint32_t last) {
+    const double scale = std::abs(bound.rest_scale);
+    const uint32_t middle = (first + last) / 2;
+    const glm::dmat3 to_middle = glm::transpose(frames[middle].axes) / scale;
+    glm::dvec3 low(std::numeric_limits<double>::max());
+    glm::dvec3 high(std::numeric_limits<double>::lowest());
+    double reach = 0.0;
+    double spread = 0.0;
+    for (uint32_t s = first; s < last; ++s) {
+        const BoundRoot& root = bound.roots[s];
+        const glm::dvec3 from_middle = frames[s].position - frames[middle].position;
+        spread = std::max(spread, glm::length(from_middle) / scale);
+        for (uint32_t i = root.first_point; i < root.first_point + root.point_count; ++i) {
+            const glm::dvec3 local(bound.local[i]);
+            const glm::dvec3 here = to_middle * (from_middle + frames[s].axes * local * scale);
+            low = glm::min(low, here);
+            high = glm::max(high, here);
+            reach = std::max(reach, glm::length(local));
+        }
+    }
+    const double pad = last - first > 1 ? 0.1 * reach + 0.25 * spread : 1e-5 * reach;
+    return {middle, glm::vec3(low - pad), glm::vec3(high + pad)};
+}
+
+/// Strands come along a Morton curve, so runs of them are patches; where the curve jumps a new one
+/// starts. As small patches as the number of clusters allows.
+void cluster_strands(std::span<const RestFrame> frames, BoundRoots& bound) {
+    double radius = 0.5 * bound.reach * std::abs(bound.rest_scale);
+    auto begin = runs_within(frames, radius);
+    while (begin.size() > kMostClusters + 1) {
+        radius *= 1.25;
+        begin = runs_within(frames, radius);
+    }
+    for (size_t c = 0; c + 1 < begin.size(); ++c) {
+        bound.clusters.push_back(cluster_of(frames, bound, begin[c], begin[c + 1]));
     }
 }
 

@@ -58,6 +58,20 @@ TEST(HairExtension, OnlyTheGroomIsNeeded) {
     EXPECT_TRUE(hair->techniques.shadow.empty());
 }
 
+TEST(HairExtension, TheBindingNamesAMeshByIndexOrName) {
+    const auto none = parse_hair_extension(R"({"groom": "a.hair"})", kWhere);
+    ASSERT_TRUE(none);
+    EXPECT_FALSE(none->binding);
+    const auto index = parse_hair_extension(R"({"groom": "a", "binding": {"mesh": 3}})", kWhere);
+    ASSERT_TRUE(index) << index.error().message();
+    EXPECT_EQ(index->binding->node, 3u);
+    const auto name =
+        parse_hair_extension(R"({"groom": "a", "binding": {"mesh": "Head"}})", kWhere);
+    ASSERT_TRUE(name) << name.error().message();
+    EXPECT_FALSE(name->binding->node);
+    EXPECT_EQ(name->binding->name, "Head");
+}
+
 struct BadCase {
     const char* json;
     /// Parts of the message: the field, what is wrong, what is allowed.
@@ -75,6 +89,12 @@ TEST(HairExtension, ErrorsNameFileNodeFieldAndRange) {
         {R"({"groom": "a", "width": {"root": -1}})", {"width.root", "is -1", "1e-06 to 0.05"}},
         {R"({"groom": "a", "width": {"root": 0.001, "tip": 0.002}})", {"width.tip", "wider"}},
         {R"({"groom": "a", "width": {"tip": 0.002}})", {"width.tip", "without root"}},
+        {R"({"groom": "a", "binding": "Head"})", {"VELLUS_hair.binding", "string", "object"}},
+        {R"({"groom": "a", "binding": {}})", {"binding.mesh", "missing", "index or the name"}},
+        {R"({"groom": "a", "binding": {"mesh": ""}})", {"binding.mesh", "missing or empty"}},
+        {R"({"groom": "a", "binding": {"mesh": -1}})", {"binding.mesh", "is -1", "whole number"}},
+        {R"({"groom": "a", "binding": {"mesh": 1.5}})", {"binding.mesh", "is 1.5", "or a name"}},
+        {R"({"groom": "a", "binding": {"mesh": [1]}})", {"binding.mesh", "is array"}},
         {R"({"groom": "a", "width": 3})", {"VELLUS_hair.width", "number", "object"}},
         {R"({"groom": "a", "material": {"roughness": 1.01}})",
          {"material.roughness", "is 1.01", "0 to 1"}},
