@@ -23,12 +23,13 @@ struct Pair {
 };
 
 Pair draw(const std::string& name, const std::string& glb, const std::string& node,
-          const nlohmann::json& hair, const std::vector<std::string>& arguments) {
+          const nlohmann::json& hair, const std::vector<std::string>& arguments,
+          const std::function<void(nlohmann::json&)>& edit = {}) {
     nlohmann::json clear = hair;
     clear["material"]["alpha"] = 0.0;
     const auto run = [&](const std::string& scene_name, const nlohmann::json& look) {
         std::vector<std::string> all = {
-            test::scene_with_hair(scene_name, kData / "gltf" / glb, node, look).string()};
+            test::scene_with_hair(scene_name, kData / "gltf" / glb, node, look, edit).string()};
         all.insert(all.end(), arguments.begin(), arguments.end());
         return test::render(scene_name, all);
     };
@@ -130,6 +131,74 @@ TEST(RealScenes, HairOnTheHeadJointFollowsAnAnimatedCharacter) {
     const auto [low, high] = std::ranges::minmax(centres);
     EXPECT_GT(high - low, 0.5) << "the head of a walking man goes up and down";
     EXPECT_LT(high - low, 40.0) << "and never leaves him";
+}
+
+/// Column of the mask's centre, in pixels.
+double centre_x(const std::vector<uint8_t>& mask, uint32_t width) {
+    double sum = 0.0;
+    for (size_t i = 0; i < mask.size(); ++i) sum += mask[i] * static_cast<double>(i % width);
+    return sum / static_cast<double>(area(mask));
+}
+
+TEST(RealScenes, FurStaysOnARunningFox) {
+    REQUIRE_DATA();
+    const fs::path groom = test::write_fur("fox_fur", kData / "gltf/Fox.glb", "fox", 60'000, 3.0);
+    const nlohmann::json hair = {
+        {"groom", groom.string()},
+        {"upright", false},
+        {"binding", {{"mesh", "fox"}}},
+        {"width", {{"root", 0.0006}, {"tip_scale", 0.3}}},
+        {"material",
+         {{"base_color", {0.45, 0.18, 0.05}}, {"color_variation", 0.3}, {"roughness", 0.4}}}};
+    // The file is in centimetres.
+    const Pair pair = draw("fox", "Fox.glb", "root", hair,
+                           {"--size", "480x300", "--frames", "41", "--save", "5,20,30,40"},
+                           [](nlohmann::json& scene) {
+                               test::scale_scene(scene, 0.01);
+                               test::keep_animation(scene, "Run");
+                           });
+    ASSERT_EQ(pair.with.size(), 4u);
+    std::vector<size_t> areas;
+    for (size_t frame = 0; frame < pair.with.size(); ++frame) {
+        const auto mask = test::changed(pair.with[frame], pair.without[frame]);
+        areas.push_back(area(mask));
+        // Fur on the ground, or left behind, would not be where the fox's own pixels are.
+        const auto fox = test::changed(pair.without[frame], pair.without[(frame + 1) % 4]);
+        EXPECT_NEAR(centre_x(mask, 480), centre_x(fox, 480), 40.0) << frame;
+    }
+    const auto [low, high] = std::ranges::minmax(areas);
+    EXPECT_GT(low, 480u * 300u / 20) << "the fox is covered";
+    EXPECT_LT(static_cast<double>(high) / static_cast<double>(low), 1.3);
+}
+
+TEST(RealScenes, BoundHairFollowsAWalkingMan) {
+    REQUIRE_DATA();
+    const nlohmann::json hair = {
+        {"groom", (kData / "hair/Ratboy_mohawk.tfx").string()},
+        {"upright", true},
+        {"binding", {{"mesh", "Cesium_Man"}}},
+        {"transform", {{"translation", {0.0, 0.0, 0.0}}, {"scale", {0.3, 0.3, 0.3}}}},
+        {"material", {{"melanin", {{"eumelanin", 0.3}, {"pheomelanin", 0.1}}}}}};
+    const std::vector<std::string> arguments = {"--size", "320x360", "--frames",
+                                                "31",     "--save",  "0,10,20,30"};
+    const Pair bound =
+        draw("man_bound", "CesiumMan.collada2gltf.glb", "Skeleton_neck_joint_2", hair, arguments);
+    nlohmann::json loose = hair;
+    loose.erase("binding");
+    const Pair rigid =
+        draw("man_rigid", "CesiumMan.collada2gltf.glb", "Skeleton_neck_joint_2", loose, arguments);
+    ASSERT_EQ(bound.with.size(), 4u);
+    ASSERT_EQ(rigid.with.size(), 4u);
+    for (size_t frame = 0; frame < bound.with.size(); ++frame) {
+        // A head hardly bends: bound to its skin or to its joint, hair is in the same place.
+        const auto a = test::changed(bound.with[frame], bound.without[frame]);
+        const auto b = test::changed(rigid.with[frame], rigid.without[frame]);
+        ASSERT_GT(area(a), 100u);
+        EXPECT_NEAR(static_cast<double>(area(a)), static_cast<double>(area(b)),
+                    0.1 * static_cast<double>(area(b)))
+            << frame;
+        EXPECT_NEAR(centre_x(a, 320), centre_x(b, 320), 2.0) << frame;
+    }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/gtc/packing.hpp>
 #include <vector>
 
 #include "engine/frame_graph/context.h"
@@ -76,19 +77,16 @@ class HairScene {
     }
     /// One frame; its linear picture before TAA and tone map, as RGBA half floats unpacked.
     std::vector<glm::vec4> draw() {
-        EXPECT_TRUE(executor->begin_frame());
-        schedule.run(world);
-        auto& frame = world.resource<scene::RenderFrame>();
-        EXPECT_FALSE(frame.error) << frame.error->message();
-        read_color(frame);
-        auto done = executor->execute(frame.graph);
-        EXPECT_TRUE(done) << done.error().message();
-        EXPECT_TRUE(executor->wait());
-        ++world.resource<scene::FixedStep>().frame;
-        const glm::uvec2 size = frame.size;
-        std::vector<glm::vec4> pixels(size_t{size.x} * size.y);
+        std::vector<glm::vec4> pixels(render(&scene::RenderFrame::color));
         const auto* halves = reinterpret_cast<const uint64_t*>(readback_.mapped());
         for (size_t i = 0; i < pixels.size(); ++i) pixels[i] = glm::unpackHalf4x16(halves[i]);
+        return pixels;
+    }
+    /// One frame; how far what it shows moved since the last one, in pixels.
+    std::vector<glm::vec2> draw_velocity() {
+        std::vector<glm::vec2> pixels(render(&scene::RenderFrame::velocity));
+        const auto* halves = reinterpret_cast<const uint32_t*>(readback_.mapped());
+        for (size_t i = 0; i < pixels.size(); ++i) pixels[i] = glm::unpackHalf2x16(halves[i]);
         return pixels;
     }
 
@@ -98,13 +96,29 @@ class HairScene {
     std::unique_ptr<graph::Executor> executor;
 
   private:
-    void read_color(scene::RenderFrame& frame) {
+    using Picture = graph::ImageHandle scene::RenderFrame::*;
+
+    /// Draws a frame, one picture of it into readback_; how many pixels it has.
+    size_t render(Picture picture) {
+        EXPECT_TRUE(executor->begin_frame());
+        schedule.run(world);
+        auto& frame = world.resource<scene::RenderFrame>();
+        EXPECT_FALSE(frame.error) << frame.error->message();
+        read(frame, picture);
+        auto done = executor->execute(frame.graph);
+        EXPECT_TRUE(done) << done.error().message();
+        EXPECT_TRUE(executor->wait());
+        ++world.resource<scene::FixedStep>().frame;
+        return size_t{frame.size.x} * frame.size.y;
+    }
+    void read(scene::RenderFrame& frame, Picture picture) {
         auto target = frame.graph.import_buffer("readback", {readback_.bytes()}, &readback_,
                                                 graph::Access::kNone, graph::Access::kHostRead);
         auto pass = frame.graph.add_pass("test/readback", graph::PassKind::kTransfer);
-        pass.read(frame.color, graph::Access::kTransferRead);
+        pass.read(frame.*picture, graph::Access::kTransferRead);
         target = pass.write(target, graph::Access::kTransferWrite, graph::Load::kDiscard);
-        pass.execute([color = frame.color, target, size = frame.size](graph::PassContext& context) {
+        pass.execute([color = frame.*picture, target,
+                      size = frame.size](graph::PassContext& context) {
             const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                            .imageExtent = {size.x, size.y, 1}};
             vkCmdCopyImageToBuffer(context.commands().handle(), context.image(color),
