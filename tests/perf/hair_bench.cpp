@@ -116,6 +116,7 @@ const Registration kHair(
          auto options = std::make_shared<Options>();
          app.add_option("--groom", options->rig.groom, "groom file");
          app.add_option("--device", options->rig.device, "part of its name");
+         app.add_flag("--bound", options->rig.bound, "roots on a mesh that moves");
          app.add_option("--width", options->rig.width, "pixels")->check(CLI::Range(1, 16384));
          app.add_option("--height", options->rig.height, "pixels")->check(CLI::Range(1, 16384));
          app.add_option("--frames", options->frames, "counted frames")

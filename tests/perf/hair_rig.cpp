@@ -1,9 +1,14 @@
 #include "tests/perf/hair_rig.h"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/packing.hpp>
+#include <numbers>
 
 #include "engine/frame_graph/context.h"
+#include "modules/character/register.h"
 #include "modules/display/register.h"
+#include "modules/hair/binding/bind_hair.h"
 #include "modules/hair/geometry/hair_frame.h"
 #include "modules/hair/register.h"
 #include "modules/hair/spawn.h"
@@ -36,6 +41,33 @@ Result<void> light_evenly(World& world, gpu::Device& device) {
     return {};
 }
 
+/// A sphere through the box's sides, its upper half carried by the second joint.
+asset::Mesh sphere_on_two_joints(const scene::Box& box) {
+    constexpr uint32_t kAround = 64;
+    constexpr uint32_t kRows = 32;
+    asset::Primitive sphere;
+    for (uint32_t row = 0; row <= kRows; ++row) {
+        for (uint32_t i = 0; i < kAround; ++i) {
+            const double polar = std::numbers::pi * row / kRows;
+            const double azimuth = 2.0 * std::numbers::pi * i / kAround;
+            const glm::dvec3 n(std::sin(polar) * std::cos(azimuth), std::cos(polar),
+                               std::sin(polar) * std::sin(azimuth));
+            sphere.positions.emplace_back(box.center() + 0.5 * n * (box.max - box.min));
+            sphere.normals.emplace_back(n);
+            sphere.joints.emplace_back(0, 1, 0, 0);
+            const auto upper = static_cast<float>(std::clamp(n.y + 0.5, 0.0, 1.0));
+            sphere.weights.emplace_back(1.0f - upper, upper, 0.0f, 0.0f);
+            if (row == kRows) continue;
+            const uint32_t a = row * kAround + i;
+            const uint32_t b = row * kAround + (i + 1) % kAround;
+            for (const uint32_t v : {a, b, b + kAround, a, b + kAround, a + kAround}) {
+                sphere.indices.push_back(v);
+            }
+        }
+    }
+    return {"sphere", {sphere}, {}};
+}
+
 scene::CameraPose framed(const hair::LibraryGroom& groom, glm::uvec2 size) {
     const std::vector<glm::dvec3> points(groom.outermost.begin(), groom.outermost.end());
     return scene::frame_points(points, kYaw, kPitch, static_cast<double>(size.x) / size.y, kFill);
@@ -59,6 +91,7 @@ Result<void> HairRig::set_up(const HairRigOptions& options) {
     device_ = std::move(*device);
     if (auto done = scene::insert_render_frame(world_, *device_); !done) return done;
     scene::register_scene(world_, schedule_);
+    character::register_character(world_, schedule_);
     light::register_light(world_, schedule_);
     hair::register_hair(world_, schedule_);
     temporal::register_temporal(world_, schedule_);
@@ -76,7 +109,10 @@ Result<void> HairRig::set_up(const HairRigOptions& options) {
     }
     auto groom = hair::add_groom(world_, *device_, options.groom, true);
     if (!groom) return groom.error();
-    hair::spawn_hair(world_, *groom, look, options.techniques, kNoEntity);
+    const Entity hair = hair::spawn_hair(world_, *groom, look, options.techniques, kNoEntity);
+    if (options.bound) {
+        if (auto bound = bind(hair, *groom); !bound) return bound;
+    }
     const glm::uvec2 size{options.width, options.height};
     scene::spawn_camera(world_, framed(world_.resource<hair::HairLibrary>().grooms[*groom], size));
     world_.resource<scene::ViewSettings>().size = size;
@@ -94,6 +130,31 @@ Result<void> HairRig::set_up(const HairRigOptions& options) {
     if (!buffer) return buffer.error();
     readback_ = std::move(*buffer);
     return {};
+}
+
+Result<void> HairRig::bind(Entity hair, uint32_t groom) {
+    const auto& shape = world_.resource<hair::HairLibrary>().grooms[groom];
+    scene::Box roots;
+    for (size_t s = 0; s + 1 < shape.strand_begin.size(); ++s) {
+        roots.include(glm::dvec3(shape.positions[shape.strand_begin[s]]));
+    }
+    auto asset = std::make_shared<asset::SceneAsset>();
+    asset->meshes = {sphere_on_two_joints(roots)};
+    asset->nodes = {{.name = "scalp", .mesh = 0, .skin = 0}, {.name = "neck"}, {.name = "head"}};
+    asset->roots = {0, 1, 2};
+    asset->skins = {{"skin", {1, 2}, {}}};
+    auto instance = scene::instantiate(world_, asset);
+    if (!instance) return instance.error();
+    const auto& library = world_.resource<scene::SceneLibrary>();
+    nodding_ = library.entity(*instance, 2);
+    return hair::bind_hair(world_, *device_, hair, library.entity(*instance, 0));
+}
+
+void HairRig::nod() {
+    if (nodding_ == kNoEntity) return;
+    const auto frame = static_cast<float>(world_.resource<scene::FixedStep>().frame);
+    world_.get<scene::LocalTransform>(nodding_)->rotation =
+        glm::angleAxis(0.02f * std::sin(0.3f * frame), glm::vec3(1, 0, 0));
 }
 
 void HairRig::read_back(Wanted wanted) {
@@ -128,6 +189,7 @@ void HairRig::read_back(Wanted wanted) {
 
 Result<void> HairRig::draw(Wanted wanted) {
     if (auto begun = executor_->begin_frame(); !begun) return begun;
+    nod();
     schedule_.run(world_);
     auto& frame = world_.resource<scene::RenderFrame>();
     if (frame.error) return *frame.error;

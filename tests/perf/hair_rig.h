@@ -19,6 +19,8 @@ struct HairRigOptions {
     bool temporal = true;
     /// White hair under an even white sky before black, unshadowed: brightness is coverage.
     bool white = false;
+    /// Its roots on a sphere of 2,000 vertices and two joints, which nods a little in each frame.
+    bool bound = false;
     hair::HairTechniques techniques;
 };
 
@@ -45,6 +47,8 @@ class HairRig {
   private:
     HairRig() = default;
     Result<void> set_up(const HairRigOptions& options);
+    Result<void> bind(Entity hair, uint32_t groom);
+    void nod();
     void read_back(Wanted wanted);
 
     std::unique_ptr<gpu::Device> device_;
@@ -52,6 +56,7 @@ class HairRig {
     Schedule schedule_{"frame"};
     std::unique_ptr<graph::Executor> executor_;
     gpu::Buffer readback_;
+    Entity nodding_ = kNoEntity;
     Wanted last_ = Wanted::kPicture;
     size_t pixels_ = 0;
 };

@@ -58,12 +58,27 @@ class Placement {
     Entity space_;
 };
 
-/// The mesh at rest, and the entity or instance whose space that is.
+/// A mesh to bind to, and the entity or instance whose space it rests in.
 struct Target {
-    RestMesh mesh;
-    std::string name;
+    const asset::SceneAsset* asset = nullptr;
+    uint32_t asset_index = 0;
+    uint32_t mesh = 0;  ///< as in BindingKey
     uint32_t instance = asset::kNone;
     Entity space;
+
+    [[nodiscard]] std::string name() const {
+        const std::string file = asset->path.string();
+        if (mesh >= kMeshItself) {
+            return fmt::format("{}: mesh '{}'", file, asset->meshes[mesh - kMeshItself].name);
+        }
+        return fmt::format("{}: node {} '{}'", file, mesh, asset->nodes[mesh].name);
+    }
+    [[nodiscard]] Result<RestMesh> at_rest() const {
+        if (mesh < kMeshItself) return rest_mesh(*asset, mesh);
+        const glm::dmat4 identity(1.0);
+        const asset::Mesh& shape = asset->meshes[mesh - kMeshItself];
+        return rest_mesh(shape, {&identity, 1}, shape.morph_weights);
+    }
 };
 
 Result<Target> find_target(World& world, Entity entity) {
@@ -72,38 +87,57 @@ Result<Target> find_target(World& world, Entity entity) {
         return Error{"the entity has no mesh", "hair binding", "give one with a MeshInstance"};
     }
     const auto& library = world.resource<scene::SceneLibrary>();
-    const asset::SceneAsset& asset = *library.assets[mesh->asset];
-    const auto* ref = world.get<scene::NodeRef>(entity);
-    Target target;
-    if (ref != nullptr) {
-        auto rest = rest_mesh(asset, ref->node);
-        if (!rest) return rest.error();
-        target.mesh = *std::move(rest);
-        target.name = fmt::format("{}: node {} '{}'", asset.path.string(), ref->node,
-                                  asset.nodes[ref->node].name);
+    Target target{.asset = library.assets[mesh->asset].get(),
+                  .asset_index = mesh->asset,
+                  .mesh = kMeshItself + mesh->mesh,
+                  .space = entity};
+    if (const auto* ref = world.get<scene::NodeRef>(entity)) {
+        target.mesh = ref->node;
         target.instance = ref->instance;
         target.space = library.instances[ref->instance].root;
-        return target;
     }
-    const glm::dmat4 identity(1.0);
-    const asset::Mesh& shape = asset.meshes[mesh->mesh];
-    auto rest = rest_mesh(shape, {&identity, 1}, shape.morph_weights);
-    if (!rest) return rest.error();
-    target.mesh = *std::move(rest);
-    target.name = fmt::format("{}: mesh '{}'", asset.path.string(), shape.name);
-    target.space = entity;
     return target;
+}
+
+/// A place in the list that no entity uses any more, else a new one.
+Result<uint32_t> free_place(World& world, gpu::Device* device) {
+    auto& list = world.resource<HairBindings>().list;
+    std::vector<bool> used(list.size(), false);
+    world.query<const HairBinding>().each(
+        [&](const HairBinding& binding) { used[binding.roots] = true; });
+    const auto place = static_cast<uint32_t>(std::ranges::find(used, false) - used.begin());
+    if (place == list.size()) {
+        list.emplace_back();
+        return place;
+    }
+    // Frames on their way may still read what lies there.
+    if (device != nullptr) {
+        if (auto idle = device->wait_idle(); !idle) return idle.error();
+    }
+    list[place] = {};
+    return place;
 }
 
 /// Without a device nothing is uploaded.
 Result<void> bind(World& world, gpu::Device* device, Entity hair, Entity mesh, const Target& target,
                   const glm::dmat4& placement) {
-    const uint32_t index = world.get<Hair>(hair)->groom;
-    const LibraryGroom& groom = world.resource<HairLibrary>().grooms[index];
-    auto roots = bind_roots({groom.positions, groom.strand_begin}, placement, target.mesh);
+    const BindingKey key{world.get<Hair>(hair)->groom, target.asset_index, target.mesh, placement};
+    auto& list = world.resource<HairBindings>().list;
+    const auto known = std::ranges::find_if(list, [&](const BoundGroom& bound) {
+        return bound.key == key && (device == nullptr || bound.buffers.vertices);
+    });
+    if (known != list.end()) {
+        world.add(hair,
+                  HairBinding{.mesh = mesh, .roots = static_cast<uint32_t>(known - list.begin())});
+        return {};
+    }
+    const LibraryGroom& groom = world.resource<HairLibrary>().grooms[key.groom];
+    auto rest = target.at_rest();
+    if (!rest) return rest.error();
+    auto roots = bind_roots({groom.positions, groom.strand_begin}, placement, *rest);
     if (!roots) {
         Error error = roots.error();
-        error.where = target.name;
+        error.where = target.name();
         return error;
     }
     BoundRootBuffers buffers;
@@ -113,10 +147,12 @@ Result<void> bind(World& world, gpu::Device* device, Entity hair, Entity mesh, c
         buffers = *std::move(uploaded);
     }
     log_info("{}: {} roots on {}, at most {:.3g} m off its skin", groom.name, roots->roots.size(),
-             target.name, roots->farthest);
-    auto& list = world.resource<HairBindings>().list;
-    world.add(hair, HairBinding{.mesh = mesh, .roots = static_cast<uint32_t>(list.size())});
-    list.push_back({index, *std::move(roots), std::move(buffers)});
+             target.name(), roots->farthest);
+    world.remove<HairBinding>(hair);
+    auto place = free_place(world, device);
+    if (!place) return place.error();
+    list[*place] = {key, *std::move(roots), std::move(buffers)};
+    world.add(hair, HairBinding{.mesh = mesh, .roots = *place});
     return {};
 }
 

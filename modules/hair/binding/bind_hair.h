@@ -12,7 +12,8 @@ namespace vellus::hair {
 
 /// Binds the roots of a hair entity to the mesh of another entity, both as their scene's file has
 /// them at rest; gives `hair` a HairBinding, in place of one it has. `mesh` needs a MeshInstance
-/// (and a NodeRef where it is skinned). Bindings stay in HairBindings. Errors name the mesh and
+/// (and a NodeRef where it is skinned). Entities with the same groom at the same place of the
+/// same mesh share their binding's memory. Errors name the mesh and
 /// leave `hair` as it was.
 Result<void> bind_hair(World& world, gpu::Device& device, Entity hair, Entity mesh);
 /// The same for worlds without a device: only the columns.

@@ -77,14 +77,26 @@ struct BoundRootBuffers {
     [[nodiscard]] uint64_t bytes() const;
 };
 
+/// Which groom is bound to which mesh, and how: two entities with the same one share a binding.
+struct BindingKey {
+    uint32_t groom = 0;  ///< of the HairLibrary
+    uint32_t asset = 0;  ///< of the SceneLibrary
+    uint32_t mesh = 0;   ///< node of the asset; without one, kMeshItself + mesh
+    glm::dmat4 placement{1.0};
+
+    bool operator==(const BindingKey&) const = default;
+};
+constexpr uint32_t kMeshItself = 1u << 31;
+
 /// A binding of the library.
 struct BoundGroom {
-    uint32_t groom = 0;  ///< of the HairLibrary
+    BindingKey key;
     BoundRoots roots;
     BoundRootBuffers buffers;
 };
 
-/// All bindings of the world. Resource; an entry stays where it is.
+/// All bindings of the world. Resource; an entry stays where it is as long as a HairBinding names
+/// it, then its place serves another one.
 struct HairBindings {
     std::vector<BoundGroom> list;
 };

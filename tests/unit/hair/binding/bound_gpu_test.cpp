@@ -326,6 +326,30 @@ TEST_F(BoundHair, RebindsToAnotherMeshOfTheSameShape) {
     }
 }
 
+TEST_F(BoundHair, BindingsAreSharedAndTheirPlacesUsedAgain) {
+    const BentTube tube(12, 10);
+    TubeScene scene(device(), tube.mesh());
+    const Entity hair = scene.wear(device(), tube.fur(300), true);
+    const auto& bindings = scene.world.resource<HairBindings>().list;
+    const uint32_t groom = scene.world.get<Hair>(hair)->groom;
+    const Entity twin = spawn_hair(scene.world, groom, {}, {}, scene.root());
+    ASSERT_TRUE(bind_hair(scene.world, device(), twin, scene.node(0)));
+    EXPECT_EQ(bindings.size(), 1u);
+    scene.draw();
+    const uint64_t bytes = device().memory().bytes_in_use();
+    for (int again = 0; again < 5; ++again) {
+        const glm::dmat4 aside = glm::translate(glm::dmat4(1.0), {0.01 * (again + 1), 0.0, 0.0});
+        ASSERT_TRUE(rebind_hair(scene.world, device(), twin, scene.node(0), aside));
+        scene.draw();
+    }
+    EXPECT_EQ(bindings.size(), 2u);
+    scene.world.destroy(twin);
+    ASSERT_TRUE(rebind_hair(scene.world, device(), hair, scene.node(0)));
+    EXPECT_EQ(bindings.size(), 2u);
+    scene.draw();
+    EXPECT_LT(device().memory().bytes_in_use(), bytes + 100'000);
+}
+
 TEST_F(BoundHair, SteadyFramesMakeNothing) {
     const BentTube tube(12, 10);
     TubeScene scene(device(), tube.mesh());
