@@ -5,6 +5,7 @@
 #include "engine/asset/gltf.h"
 #include "engine/platform/log.h"
 #include "modules/character/components.h"
+#include "modules/hair/cards/card_file.h"
 #include "modules/hair/components.h"
 #include "modules/hair/spawn.h"
 #include "modules/light/load_environment.h"
@@ -30,6 +31,7 @@ bool is_gltf(const std::filesystem::path& path) {
 
 /// A glTF file of nothing but lines is a groom.
 bool is_groom(const asset::SceneAsset& scene) {
+    if (hair::says_cards(scene)) return true;
     bool lines = false;
     for (const asset::Mesh& mesh : scene.meshes) {
         for (const asset::Primitive& primitive : mesh.primitives) {
@@ -59,8 +61,8 @@ Result<LoadedContent> load_environment(ContentHost& host, const asset::SceneAsse
 }
 
 hair::AddGroom adding_to(ContentHost& host) {
-    return [&host](const std::filesystem::path& path, bool upright) {
-        return host.add_groom(path, upright);
+    return [&host](const std::filesystem::path& path, const hair::HairExtension& look) {
+        return host.add_groom(path, look);
     };
 }
 

@@ -4,6 +4,7 @@
 
 #include "engine/ecs/ecs.h"
 #include "modules/hair/dynamics/motion_extension.h"
+#include "modules/hair/groom/hair_extension.h"
 #include "modules/light/load_environment.h"
 
 namespace vellus::demo {
@@ -24,7 +25,8 @@ class ContentHost {
     virtual Result<void> settle() = 0;
 
     /// A groom file into the HairLibrary: its index there.
-    virtual Result<uint32_t> add_groom(const std::filesystem::path& path, bool upright) = 0;
+    virtual Result<uint32_t> add_groom(const std::filesystem::path& path,
+                                       const hair::HairExtension& look) = 0;
     /// Binds a hair entity to a mesh entity.
     virtual Result<void> bind_hair(Entity hair, Entity mesh) = 0;
     /// Lets a hair entity's strands move; a host that draws single pictures leaves them as they are.

@@ -82,8 +82,9 @@ void Renderer::resize(uint32_t width, uint32_t height) {
     view.cut = true;
 }
 
-Result<uint32_t> Renderer::add_groom(const std::filesystem::path& path, bool upright) {
-    return hair::add_groom(world_, device_, path, upright);
+Result<uint32_t> Renderer::add_groom(const std::filesystem::path& path,
+                                     const hair::HairExtension& look) {
+    return hair::add_groom(world_, device_, path, look);
 }
 
 Result<void> Renderer::move_hair(Entity hair, const hair::MotionChoice& motion) {

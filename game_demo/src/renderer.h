@@ -33,7 +33,8 @@ class Renderer final : public ContentHost {
     /// Starts histories anew.
     void resize(uint32_t width, uint32_t height) override;
     Result<void> settle() override;
-    Result<uint32_t> add_groom(const std::filesystem::path& path, bool upright) override;
+    Result<uint32_t> add_groom(const std::filesystem::path& path,
+                               const hair::HairExtension& look) override;
     Result<void> bind_hair(Entity hair, Entity mesh) override;
     Result<void> move_hair(Entity hair, const hair::MotionChoice& motion) override;
     Result<void> add_meshes() override;

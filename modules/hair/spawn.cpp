@@ -34,8 +34,8 @@ scene::LocalTransform local_transform(const HairExtension& look) {
 }
 
 AddGroom adding_to(World& world, gpu::Device& device) {
-    return [&world, &device](const std::filesystem::path& path, bool upright) {
-        return add_groom(world, device, path, upright);
+    return [&world, &device](const std::filesystem::path& path, const HairExtension& look) {
+        return add_groom(world, device, path, look);
     };
 }
 
@@ -109,6 +109,12 @@ Result<uint32_t> add_groom(World& world, gpu::Device& device, const std::filesys
     return add_strands(world, device, loaded->name, loaded->strands, loaded->report);
 }
 
+Result<uint32_t> add_groom(World& world, gpu::Device& device, const std::filesystem::path& path,
+                           const HairExtension& look) {
+    if (!look.cards) return add_groom(world, device, path, look.upright);
+    return add_built_cards(world, device, path, look);
+}
+
 Result<uint32_t> add_strands(World& world, gpu::Device& device, const std::string& name,
                              const StrandData& strands, const GroomReport& report) {
     auto buffers = StrandBuffers::upload(device, strands);
@@ -123,7 +129,7 @@ Result<Entity> spawn_hair(World& world, const AddGroom& add, const std::filesyst
                           const HairExtension& look, Entity parent) {
     HairTechniques techniques;
     if (auto set = set_techniques(techniques, look.techniques); !set) return set.error();
-    auto groom = add(path, look.upright);
+    auto groom = add(path, look);
     if (!groom) return groom.error();
     return spawn_hair(world, *groom, look, techniques, parent);
 }

@@ -29,12 +29,17 @@ LibraryGroom describe_groom(const std::string& name, const StrandData& strands,
 Result<uint32_t> add_groom(World& world, gpu::Device& device, const std::filesystem::path& path,
                            bool upright);
 
+/// The same as a scene asks for it: cards of the strands where `look` wants them.
+Result<uint32_t> add_groom(World& world, gpu::Device& device, const std::filesystem::path& path,
+                           const HairExtension& look);
+
 /// Strands that are already in node space and metres, e.g. generated ones, into the HairLibrary.
 Result<uint32_t> add_strands(World& world, gpu::Device& device, const std::string& name,
                              const StrandData& strands, const GroomReport& report);
 
 /// Brings a groom file into the HairLibrary, on a device or not: its index there.
-using AddGroom = std::function<Result<uint32_t>(const std::filesystem::path& path, bool upright)>;
+using AddGroom =
+    std::function<Result<uint32_t>(const std::filesystem::path& path, const HairExtension& look)>;
 /// Binds a hair entity to a mesh entity, as bind_hair.
 using BindHair = std::function<Result<void>(Entity hair, Entity mesh)>;
 /// Lets the strands of a hair entity move, as add_motion.

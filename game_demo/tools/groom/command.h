@@ -25,6 +25,7 @@ struct Command {
 extern const Command kInfo;
 extern const Command kConvert;
 extern const Command kGenerate;
+extern const Command kCards;
 extern const Command kView;
 
 /// All of them, in the order of --help. A new one is one file and one line in program.cpp.

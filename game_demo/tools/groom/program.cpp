@@ -11,7 +11,8 @@
 namespace vellus::groom_tool {
 
 std::span<const Command* const> commands() {
-    static constexpr std::array<const Command*, 4> kAll = {&kInfo, &kConvert, &kGenerate, &kView};
+    static constexpr std::array<const Command*, 5> kAll = {&kInfo, &kConvert, &kGenerate, &kCards,
+                                                           &kView};
     return kAll;
 }
 

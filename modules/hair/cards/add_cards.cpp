@@ -1,6 +1,9 @@
 #include "modules/hair/cards/add_cards.h"
 
+#include "engine/platform/log.h"
+#include "modules/hair/cards/build_cards.h"
 #include "modules/hair/components.h"
+#include "modules/hair/groom/load_strands.h"
 #include "modules/hair/spawn.h"
 
 namespace vellus::hair {
@@ -21,6 +24,35 @@ Result<uint32_t> add_cards(World& world, gpu::Device& device, const std::string&
                               .outermost = outermost_points(cards.points),
                               .has_colors = !cards.atlas.color.empty()});
     return static_cast<uint32_t>(library.grooms.size() - 1);
+}
+
+Result<uint32_t> add_built_cards(World& world, gpu::Device& device,
+                                 const std::filesystem::path& path, const HairExtension& look) {
+    const CardsChoice& choice = *look.cards;
+    const std::string name =
+        fmt::format("{} ({} cards, {} texels per metre, {} texels, widths {} {})",
+                    strands_name(path, look.upright), choice.count, choice.texels_per_metre,
+                    choice.max_texels, look.width.root, look.width.tip_scale);
+    if (const auto known = find_groom(world, name)) return *known;
+    auto loaded = load_strands(path, look.upright);
+    if (!loaded) return loaded.error();
+    StrandData& strands = loaded->strands;
+    if (look.width.root > 0.0f) {
+        strands.width = look.width.root;
+        strands.point_width.clear();
+    }
+    auto built = build_cards(strands, {.cards = choice.count,
+                                       .texels_per_metre = choice.texels_per_metre,
+                                       .max_texels = choice.max_texels,
+                                       .tip_scale = look.width.tip_scale});
+    if (!built) return Error{built.error().what, path.string(), built.error().remedy};
+    log_info("{}: {}", path.filename().string(), to_text(built->report));
+    auto groom = add_cards(world, device, name, built->cards);
+    if (!groom) return groom;
+    LibraryGroom& item = world.resource<HairLibrary>().grooms[*groom];
+    item.report = loaded->report;
+    if (strands.has_color && strands.point_color.empty()) item.color = glm::vec3(strands.color);
+    return groom;
 }
 
 }  // namespace vellus::hair

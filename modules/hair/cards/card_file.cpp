@@ -250,6 +250,13 @@ bool holds_cards(const asset::SceneAsset& scene) {
     return triangles;
 }
 
+bool says_cards(const asset::SceneAsset& scene) {
+    const auto named = [](const asset::Extension& e) { return e.name == kCardsExtensionName; };
+    return std::ranges::any_of(scene.nodes, [&](const asset::Node& node) {
+        return std::ranges::any_of(node.extensions, named);
+    });
+}
+
 Result<CardGroom> cards_from_scene(const asset::SceneAsset& scene,
                                    const std::filesystem::path& path) {
     return Reader(scene, path).read();

@@ -16,6 +16,9 @@ constexpr std::string_view kCardsExtensionName = "VELLUS_cards";
 /// Whether the scene holds cards: triangles, and no strands.
 bool holds_cards(const asset::SceneAsset& scene);
 
+/// Whether a node says so itself (VELLUS_cards), which no ordinary scene does.
+bool says_cards(const asset::SceneAsset& scene);
+
 /// Cards of a glTF file: every triangle mesh of its scene, placed by its node, with one base colour
 /// texture whose alpha is the opacity. Maps that VELLUS_cards names (PNG, relative to the file) are
 /// optional: without one, tangents run along the card, depth is 0, and each card is one strand.

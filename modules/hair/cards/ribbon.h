@@ -30,9 +30,9 @@ struct RibbonPoint {
 
 /// What a ribbon may look like.
 struct RibbonLimits {
-    uint32_t max_rows = 24;     ///< >= 2
-    float tolerance = 0.0004f;  ///< metres between the centreline and its polyline
-    float tip_scale = 1.0f;     ///< of strand widths, as in HairWidth
+    uint32_t max_rows = 24;    ///< >= 2
+    float tolerance = 0.001f;  ///< metres between the centreline and its polyline
+    float tip_scale = 1.0f;    ///< of strand widths, as in HairWidth
 };
 
 /// A strip around a cluster of strands.

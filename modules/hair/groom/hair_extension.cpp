@@ -135,6 +135,19 @@ void read_binding(JsonFields& fields, std::optional<HairBindingChoice>& binding)
     });
 }
 
+void read_cards(JsonFields& fields, std::optional<CardsChoice>& cards) {
+    fields.object("cards", [&](JsonFields& inner) {
+        CardsChoice& choice = cards.emplace();
+        double count = choice.count;
+        double texels = choice.max_texels;
+        inner.number("count", 1.0, 65536.0, count);
+        inner.number("texels_per_metre", 0.0, 1e6, choice.texels_per_metre);
+        inner.number("max_texels", 256.0, 1U << 27U, texels);
+        choice.count = static_cast<uint32_t>(count);
+        choice.max_texels = static_cast<uint32_t>(texels);
+    });
+}
+
 }  // namespace
 
 glm::dmat4 HairExtension::transform() const {
@@ -155,6 +168,7 @@ Result<HairExtension> parse_hair_extension(std::string_view json, const std::str
     read_width(fields, hair.width);
     read_material(fields, hair.material);
     read_techniques(fields, hair.techniques);
+    read_cards(fields, hair.cards);
     read_binding(fields, hair.binding);
     fields.object("motion", [&](JsonFields& inner) { read_motion(inner, hair.motion.emplace()); });
     if (fields.error()) return *fields.error();

@@ -30,6 +30,13 @@ struct HairBindingChoice {
     std::string name;
 };
 
+/// Cards to build from the strands when they are loaded; see cards/build_cards.h.
+struct CardsChoice {
+    uint32_t count = 300;
+    float texels_per_metre = 0.0f;
+    uint32_t max_texels = 1U << 22U;
+};
+
 /// VELLUS_hair on a glTF node: a groom file that moves with the node.
 /// assets/schema/VELLUS_hair.schema.json is the format for people and editors.
 struct HairExtension {
@@ -47,6 +54,8 @@ struct HairExtension {
     std::optional<HairBindingChoice> binding;
     /// Empty: strands do not move on their own.
     std::optional<MotionChoice> motion;
+    /// Empty: the file's strands, or its cards, as they are.
+    std::optional<CardsChoice> cards;
     /// Unknown fields and clamped values, one line each; the caller logs them.
     std::vector<std::string> warnings;
 

@@ -211,5 +211,19 @@ TEST(HairExtension, SchemaAndParserKnowTheSameFields) {
     }
 }
 
+TEST(HairExtensionTest, CardsMayBeBuiltAtLoad) {
+    auto hair = parse_hair_extension(
+        R"({"groom":"a.hair","cards":{"count":120,"texels_per_metre":2500}})", "test");
+    ASSERT_TRUE(hair) << hair.error().message();
+    ASSERT_TRUE(hair->cards);
+    EXPECT_EQ(hair->cards->count, 120u);
+    EXPECT_FLOAT_EQ(hair->cards->texels_per_metre, 2500.0f);
+    EXPECT_EQ(hair->cards->max_texels, 1u << 22u);
+    EXPECT_FALSE(parse_hair_extension(R"({"groom":"a.hair"})", "test")->cards);
+    const auto bad = parse_hair_extension(R"({"groom":"a.hair","cards":{"count":0}})", "test");
+    ASSERT_FALSE(bad);
+    EXPECT_NE(bad.error().message().find("count"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace vellus::hair
