@@ -34,11 +34,12 @@ Result<void> CpuHost::settle() {
     return {};
 }
 
-Result<uint32_t> CpuHost::add_groom(const std::filesystem::path& path, bool upright) {
-    if (const auto known = hair::find_groom(world_, hair::strands_name(path, upright))) {
+Result<uint32_t> CpuHost::add_groom(const std::filesystem::path& path,
+                                    const hair::HairExtension& look) {
+    if (const auto known = hair::find_groom(world_, hair::strands_name(path, look.upright))) {
         return *known;
     }
-    auto loaded = hair::load_strands(path, upright);
+    auto loaded = hair::load_strands(path, look.upright);
     if (!loaded) return loaded.error();
     auto& grooms = world_.resource<hair::HairLibrary>().grooms;
     grooms.push_back(hair::describe_groom(loaded->name, loaded->strands, loaded->report));

@@ -17,7 +17,8 @@ class CpuHost final : public ContentHost {
     World& world() override { return world_; }
     void resize(uint32_t width, uint32_t height) override;
     Result<void> settle() override;
-    Result<uint32_t> add_groom(const std::filesystem::path& path, bool upright) override;
+    Result<uint32_t> add_groom(const std::filesystem::path& path,
+                               const hair::HairExtension& look) override;
     Result<void> bind_hair(Entity hair, Entity mesh) override;
     Result<void> add_meshes() override { return {}; }
     Result<void> set_environment(const light::EnvironmentImage& image) override;
