@@ -10,8 +10,9 @@ namespace vellus::demo {
 
 namespace {
 
-constexpr double kEyeHeight = 1.25;   ///< metres above the player's feet that the camera looks at
-constexpr double kFollowTime = 0.12;  ///< seconds the camera lags behind the player
+constexpr double kEyeHeight = 1.0;  ///< metres above the player's feet that the camera looks at
+constexpr double kFollowDistance = 3.8;  ///< metres at least, to see feet and head
+constexpr double kFollowTime = 0.12;     ///< seconds the camera lags behind the player
 
 }  // namespace
 
@@ -82,6 +83,7 @@ void Viewer::set_mode(CameraMode mode) {
         return;
     }
     if (own_camera_ == kNoEntity) take_over();
+    if (mode == CameraMode::kFollow) orbit_.distance = std::max(orbit_.distance, kFollowDistance);
     place();
 }
 
