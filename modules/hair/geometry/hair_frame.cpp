@@ -141,7 +141,7 @@ HairInstance describe_instance(const LibraryGroom& groom, const HairMaterial& ma
     instance.color_variation = material.color_variation;
     instance.tip_color = one_color ? *groom.color : material.tip_color;
     instance.gradient_start = material.gradient_start;
-    instance.specular = material.specular;
+    instance.specular = 0.5f * material.specular;  // the shading takes 0.5 for physical
     instance.roughness = material.roughness;
     instance.scatter = techniques.multiple == MultipleTechnique::kNone ? 0.0f : material.scatter;
     instance.shift = std::sin(material.shift);
