@@ -7,6 +7,7 @@
 #include "engine/platform/jobs.h"
 #include "modules/hair/binding/nearest_triangle.h"
 #include "modules/hair/binding/root_frame.h"
+#include "modules/hair/groom/morton.h"
 
 namespace vellus::hair {
 
@@ -74,30 +75,51 @@ void compact_vertices(const RestMesh& mesh, BoundRoots& bound) {
     }
 }
 
-/// First strands of runs whose roots lie within `radius` of the run's first; one past the last one.
-std::vector<uint32_t> runs_within(std::span<const RestFrame> frames, double radius) {
-    std::vector<uint32_t> begin = {0};
-    for (uint32_t s = 1; s < frames.size(); ++s) {
-        if (glm::distance(frames[s].position, frames[begin.back()].position) > radius) {
-            begin.push_back(s);
-        }
+/// Strands along a Morton curve through their roots. In memory they come in levels of detail, of
+/// which each is spread over the whole groom.
+std::vector<uint32_t> neighbours_in_order(std::span<const RestFrame> frames) {
+    glm::dvec3 low(std::numeric_limits<double>::max());
+    glm::dvec3 high(std::numeric_limits<double>::lowest());
+    for (const RestFrame& frame : frames) {
+        low = glm::min(low, frame.position);
+        high = glm::max(high, frame.position);
     }
-    begin.push_back(static_cast<uint32_t>(frames.size()));
+    const glm::dvec3 size = glm::max(high - low, 1e-30);
+    std::vector<std::pair<uint32_t, uint32_t>> keys(frames.size());
+    for (uint32_t s = 0; s < frames.size(); ++s) {
+        keys[s] = {morton_code((frames[s].position - low) / size), s};
+    }
+    std::ranges::sort(keys);
+    std::vector<uint32_t> order(keys.size());
+    std::ranges::transform(keys, order.begin(), [](const auto& key) { return key.second; });
+    return order;
+}
+
+/// Where runs of `order` begin whose roots lie within `radius` of the run's first; one past the
+/// last one.
+std::vector<uint32_t> runs_within(std::span<const RestFrame> frames,
+                                  std::span<const uint32_t> order, double radius) {
+    std::vector<uint32_t> begin = {0};
+    for (uint32_t i = 1; i < order.size(); ++i) {
+        const RestFrame& first = frames[order[begin.back()]];
+        if (glm::distance(frames[order[i]].position, first.position) > radius) begin.push_back(i);
+    }
+    begin.push_back(static_cast<uint32_t>(order.size()));
     return begin;
 }
 
 /// The box of a run in the frame of its middle strand. Where a run bends its strands turn a little
 /// against each other: the box gets a tenth of their length and a quarter of the run's radius.
-BoundCluster cluster_of(std::span<const RestFrame> frames, const BoundRoots& bound, uint32_t first,
-                        uint32_t last) {
+BoundCluster cluster_of(std::span<const RestFrame> frames, const BoundRoots& bound,
+                        std::span<const uint32_t> run) {
     const double scale = std::abs(bound.rest_scale);
-    const uint32_t middle = (first + last) / 2;
+    const uint32_t middle = run[run.size() / 2];
     const glm::dmat3 to_middle = glm::transpose(frames[middle].axes) / scale;
     glm::dvec3 low(std::numeric_limits<double>::max());
     glm::dvec3 high(std::numeric_limits<double>::lowest());
     double reach = 0.0;
     double spread = 0.0;
-    for (uint32_t s = first; s < last; ++s) {
+    for (const uint32_t s : run) {
         const BoundRoot& root = bound.roots[s];
         const glm::dvec3 from_middle = frames[s].position - frames[middle].position;
         spread = std::max(spread, glm::length(from_middle) / scale);
@@ -109,21 +131,23 @@ BoundCluster cluster_of(std::span<const RestFrame> frames, const BoundRoots& bou
             reach = std::max(reach, glm::length(local));
         }
     }
-    const double pad = last - first > 1 ? 0.1 * reach + 0.25 * spread : 1e-5 * reach;
+    const double pad = run.size() > 1 ? 0.1 * reach + 0.25 * spread : 1e-5 * reach;
     return {middle, glm::vec3(low - pad), glm::vec3(high + pad)};
 }
 
-/// Strands come along a Morton curve, so runs of them are patches; where the curve jumps a new one
-/// starts. As small patches as the number of clusters allows.
+/// Runs along the curve are patches; where it jumps a new one starts. As small patches as the
+/// number of clusters allows.
 void cluster_strands(std::span<const RestFrame> frames, BoundRoots& bound) {
     double radius = 0.5 * bound.reach * std::abs(bound.rest_scale);
-    auto begin = runs_within(frames, radius);
+    const auto order = neighbours_in_order(frames);
+    auto begin = runs_within(frames, order, radius);
     while (begin.size() > kMostClusters + 1) {
         radius *= 1.25;
-        begin = runs_within(frames, radius);
+        begin = runs_within(frames, order, radius);
     }
     for (size_t c = 0; c + 1 < begin.size(); ++c) {
-        bound.clusters.push_back(cluster_of(frames, bound, begin[c], begin[c + 1]));
+        bound.clusters.push_back(
+            cluster_of(frames, bound, std::span(order).subspan(begin[c], begin[c + 1] - begin[c])));
     }
 }
 

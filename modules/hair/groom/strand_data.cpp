@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "engine/platform/jobs.h"
+#include "modules/hair/groom/morton.h"
 
 namespace vellus::hair {
 
@@ -20,19 +21,6 @@ constexpr double kShortestSegment = 1e-9;
 constexpr double kParameterScale = 65535.0;
 /// Makes the level of a strand independent of its seed.
 constexpr uint32_t kLevelSalt = 0x3C6EF372U;
-
-/// Spreads ten bits three apart.
-uint32_t spread_bits(uint32_t bits) {
-    bits = (bits | (bits << 16U)) & 0x030000FFU;
-    bits = (bits | (bits << 8U)) & 0x0300F00FU;
-    bits = (bits | (bits << 4U)) & 0x030C30C3U;
-    return (bits | (bits << 2U)) & 0x09249249U;
-}
-
-uint32_t morton_code(glm::vec3 unit) {
-    const glm::uvec3 cell(glm::clamp(unit, 0.0f, 1.0f) * 1023.0f);
-    return spread_bits(cell.x) | (spread_bits(cell.y) << 1U) | (spread_bits(cell.z) << 2U);
-}
 
 /// Bijective mixer with low bias (Wellons, "Prospecting for Hash Functions", lowbias32).
 uint32_t mix_bits(uint32_t x) {

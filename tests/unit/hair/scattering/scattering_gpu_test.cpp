@@ -37,7 +37,7 @@ class ScatteringTest : public test::GpuTest {
         HairExtension look;
         look.material.base_color = look.material.tip_color = {0.7f, 0.4f, 0.1f};
         look.material.color_variation = 0.0f;
-        look.material.specular = 0.5f;
+        look.material.specular = 1.0f;  // 0.5 in a HairSurface
         scene.add_hair(patch(), look, unshadowed(scattering, multiple));
         scene.add_sun(to_sun);
         scene.build();
