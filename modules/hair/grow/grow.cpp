@@ -50,6 +50,20 @@ void add_thickness(const GrowSettings& settings, Groom& groom) {
     }
 }
 
+/// Points that fell together while settling are drawn apart, so that every segment has a direction:
+/// one goes halfway to the next, a tip on by a millimetre's tenth.
+void part_points(std::span<glm::vec3> strand) {
+    constexpr float kApart = 1e-6f;  // metres
+    for (size_t i = 1; i < strand.size(); ++i) {
+        if (glm::distance(strand[i], strand[i - 1]) > kApart) continue;
+        if (i + 1 < strand.size() && glm::distance(strand[i + 1], strand[i - 1]) > kApart) {
+            strand[i] = 0.5f * (strand[i - 1] + strand[i + 1]);
+        } else {
+            strand[i] = strand[i - 1] + glm::vec3(0.0f, -1e-4f, 0.0f);
+        }
+    }
+}
+
 Groom to_groom(const GrowSettings& settings, const std::vector<Root>& roots, bool mapped,
                Strands&& strands) {
     Groom groom;
@@ -58,6 +72,9 @@ Groom to_groom(const GrowSettings& settings, const std::vector<Root>& roots, boo
     groom.strand_begin.resize(roots.size() + 1);
     for (size_t i = 0; i < groom.strand_begin.size(); ++i) {
         groom.strand_begin[i] = static_cast<uint32_t>(i * settings.points);
+    }
+    for (size_t i = 0; i < roots.size(); ++i) {
+        part_points(std::span(groom.points).subspan(i * settings.points, settings.points));
     }
     if (mapped) {
         for (const Root& root : roots) groom.strand_uvs.push_back(root.uv);
