@@ -2,30 +2,21 @@
 
 #include <cstddef>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "assets/generator/gltf_buffer.h"
+#include "assets/generator/gltf_values.h"
 #include "assets/generator/ground.h"
 #include "assets/generator/part.h"
 #include "assets/generator/skeleton.h"
 
 namespace vellus::sculpt {
 
-using Json = nlohmann::ordered_json;
-
 /// Numbers of glTF nodes.
 using Node = size_t;
 constexpr Node kNoNode = static_cast<Node>(-1);
-
-/// JSON of vectors, rounded to a micrometre, and of rotations.
-Json list(glm::dvec3 v);
-Json list(glm::dquat q);
-
-/// Turns -Z to `direction` and keeps +Y up.
-glm::dquat facing(glm::dvec3 direction);
 
 /// A skeleton placed in a scene: one node per joint, in the order of the joints.
 struct Rig {

@@ -7,18 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "assets/generator/gltf_buffer.h"
+#include "assets/generator/gltf_values.h"
 
 namespace vellus::sculpt {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using glm::dvec3;
-
-// glTF's numbers for component types.
-constexpr int kUint8 = 5121;
-constexpr int kUint16 = 5123;
-constexpr int kFloat = 5126;
 
 // Joints in the bust's own space, whose origin is the middle of the head.
 constexpr dvec3 kTorso(0.0, -0.300, -0.050);
@@ -41,37 +36,6 @@ enum Node : int {
     kRimNode
 };
 
-/// Rounded to a micrometre, which keeps the file readable.
-double tidy(double x) {
-    return std::round(x * 1e6) / 1e6 + 0.0;
-}
-
-Json list(dvec3 v) {
-    return Json::array({tidy(v.x), tidy(v.y), tidy(v.z)});
-}
-
-Json list(glm::dquat q) {
-    return Json::array({q.x, q.y, q.z, q.w});
-}
-
-/// Turns -Z to `direction` and keeps +Y up.
-glm::dquat facing(dvec3 direction) {
-    const dvec3 z = -glm::normalize(direction);
-    const dvec3 x = glm::normalize(glm::cross(dvec3(0.0, 1.0, 0.0), z));
-    return glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z)));
-}
-
-uint16_t unorm16(double x) {
-    return static_cast<uint16_t>(std::lround(std::clamp(x, 0.0, 1.0) * 65535.0));
-}
-
-/// Shares as 16-bit numbers that add up to one exactly.
-glm::u16vec4 unorm_shares(dvec3 shares) {
-    const uint16_t neck = unorm16(shares.y);
-    const uint16_t head = unorm16(shares.z);
-    return {static_cast<uint16_t>(65535 - neck - head), neck, head, 0};
-}
-
 Json add_part(GltfBuffer& buffer, const Part& part, int material) {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
@@ -85,7 +49,8 @@ Json add_part(GltfBuffer& buffer, const Part& part, int material) {
         normals.emplace_back(part.surface.normals[i]);
         const dvec3 c = part.colors[i];
         colors.emplace_back(unorm16(c.x), unorm16(c.y), unorm16(c.z), uint16_t{65535});
-        weights.push_back(unorm_shares(part.weights[i]));
+        const dvec3& shares = part.weights[i];
+        weights.push_back(unorm_shares({shares.x, shares.y, shares.z, 0.0}));
         // A joint without weight must be joint 0.
         joints[i].y = weights[i].y == 0 ? 0 : 1;
         joints[i].z = weights[i].z == 0 ? 0 : 2;
