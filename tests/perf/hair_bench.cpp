@@ -8,6 +8,7 @@
 #include "tests/perf/allocation_count.h"
 #include "tests/perf/bench.h"
 #include "tests/perf/hair_rig.h"
+#include "tests/perf/report/report.h"
 
 // What a whole frame of hair costs, pass by pass, beside the cheapest frame there is: the closest
 // visible segment of each pixel and nothing else.
@@ -29,12 +30,6 @@ struct Cost {
     uint64_t allocations = 0;
     uint64_t objects = 0;
 };
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-}
 
 Result<Cost> measure(HairRig& rig, Wanted wanted, const Options& options) {
     Cost cost;

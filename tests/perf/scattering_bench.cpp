@@ -7,6 +7,7 @@
 #include "modules/hair/scattering/fibre_library.h"
 #include "tests/perf/bench.h"
 #include "tests/perf/hair_rig.h"
+#include "tests/perf/report/report.h"
 #include "tests/support/sampling.h"
 #include "tests/support/scattering_error.h"
 
@@ -49,12 +50,6 @@ struct Push {
 
 constexpr uint32_t kThreads = 1U << 17;
 constexpr uint32_t kLights = 16;
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-}
 
 std::string_view name_of(uint32_t technique) {
     return hair::technique_ids("scattering")[technique];

@@ -33,6 +33,12 @@ Row row_from(const nlohmann::json& json) {
 
 }  // namespace
 
+double median(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    std::ranges::sort(values);
+    return values[values.size() / 2];
+}
+
 Row make_row(std::string name, std::string unit, std::vector<double> samples) {
     Row row{.name = std::move(name), .unit = std::move(unit)};
     if (samples.empty()) return row;

@@ -21,6 +21,9 @@ struct Row {
     uint32_t samples = 0;
 };
 
+/// The middle one, of an even number the upper; 0 of none.
+double median(std::vector<double> values);
+
 /// Sorts `samples`; none gives a row of zeros.
 Row make_row(std::string name, std::string unit, std::vector<double> samples);
 
