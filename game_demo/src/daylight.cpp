@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "modules/light/daylight.h"
-#include "modules/light/environment.h"
+#include "modules/light/light_set.h"
 #include "modules/light/load_environment.h"
 #include "modules/scene/components.h"
 
@@ -11,9 +11,10 @@ namespace vellus::demo {
 
 Daylight::Daylight(World& world) {
     float strongest = 0.0f;
-    world.query<Entity, const scene::Light>().each([&](Entity entity, const scene::Light& light) {
-        if (light.kind == asset::LightKind::kDirectional && light.intensity > strongest) {
-            strongest = light.intensity;
+    world.query<Entity, const scene::Light>().each([&](Entity entity, const scene::Light& source) {
+        const float power = light::strength(source);
+        if (source.kind == asset::LightKind::kDirectional && power > strongest) {
+            strongest = power;
             sun_ = entity;
         }
     });

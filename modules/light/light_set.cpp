@@ -86,10 +86,6 @@ uint32_t map_size(const Sphere& focus, const scene::CameraPose& camera, double p
     return std::min(std::bit_ceil(wanted), settings.size);
 }
 
-float strength(const scene::Light& light) {
-    return light.intensity * std::max({light.color.r, light.color.g, light.color.b});
-}
-
 PunctualLight describe(const scene::Light& source, const glm::dvec3& position,
                        const glm::dvec3& to_light, const glm::dvec3& camera) {
     PunctualLight light;
@@ -109,6 +105,10 @@ PunctualLight describe(const scene::Light& source, const glm::dvec3& position,
 }
 
 }  // namespace
+
+float strength(const scene::Light& light) {
+    return light.intensity * std::max({light.color.r, light.color.g, light.color.b});
+}
 
 void gather_lights(Query<const scene::MeshInstance> meshes,
                    Query<const scene::Light, const scene::WorldTransform> lights,

@@ -38,6 +38,9 @@ struct LightSet {
     uint32_t left_out = 0;     ///< lights beyond kMaxLights
 };
 
+/// How much a light counts beside others: its intensity in its strongest channel.
+float strength(const scene::Light& light);
+
 /// System: punctual lights to camera-relative LightSet with fitted shadow views.
 void gather_lights(Query<const scene::MeshInstance> meshes,
                    Query<const scene::Light, const scene::WorldTransform> lights,
