@@ -136,4 +136,20 @@ std::string switch_names() {
     return joined(names);
 }
 
+std::optional<int> parse_or_tell(CLI::App& app, int argc, const char* const* argv,
+                                 const std::function<void()>& check, std::ostream& out,
+                                 std::ostream& err) {
+    try {
+        app.parse(argc, argv);
+        check();
+    } catch (const CLI::CallForHelp&) {
+        out << app.help();
+        return 0;
+    } catch (const CLI::ParseError& error) {
+        err << "error: " << error.what() << " (see --help)\n";
+        return 2;
+    }
+    return std::nullopt;
+}
+
 }  // namespace vellus::demo

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
+
 #include <array>
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,6 +27,12 @@ Result<SaveChoice> read_save(std::string_view text);
 Result<TechniqueChoice> read_technique(std::string_view text);
 /// "no_culling", "random_order=7" and so on, into `switches`.
 Result<void> read_switch(std::string_view text, graph::Switches& switches);
+/// Parses, then checks what no single option can see (`check` throws CLI::ValidationError). The
+/// program's exit status where there is nothing to run: 0 after --help, 2 after a mistake.
+std::optional<int> parse_or_tell(CLI::App& app, int argc, const char* const* argv,
+                                 const std::function<void()>& check, std::ostream& out,
+                                 std::ostream& err);
+
 /// The legal values, for --help.
 std::string describe_techniques();
 std::string switch_names();

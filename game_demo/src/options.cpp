@@ -133,19 +133,11 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
         "keys.");
     // Scripts append their own: the last one counts.
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    try {
-        add_run_options(app, parsed.options);
-        add_world_options(app, parsed.options);
-        add_device_options(app, parsed.options);
-        app.parse(argc, argv);
-        check_together(parsed.options);
-    } catch (const CLI::CallForHelp&) {
-        out << app.help();
-        parsed.exit_status = 0;
-    } catch (const CLI::ParseError& error) {
-        err << "error: " << error.what() << " (see --help)\n";
-        parsed.exit_status = 2;
-    }
+    add_run_options(app, parsed.options);
+    add_world_options(app, parsed.options);
+    add_device_options(app, parsed.options);
+    const auto check = [&] { check_together(parsed.options); };
+    parsed.exit_status = parse_or_tell(app, argc, argv, check, out, err);
     return parsed;
 }
 

@@ -90,19 +90,13 @@ ParsedReferenceOptions parse_reference_options(int argc, const char* const* argv
         "Until "
         "a picture is done its sums lie beside it, in FILE.exr.checkpoint.");
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    try {
-        add_picture_options(app, parsed.options);
-        add_world_options(app, parsed.options);
-        app.parse(argc, argv);
+    add_picture_options(app, parsed.options);
+    add_world_options(app, parsed.options);
+    const auto check = [&] {
         check_extension("--out", parsed.options.out, ".exr");
         check_extension("--png", parsed.options.png, ".png");
-    } catch (const CLI::CallForHelp&) {
-        out << app.help();
-        parsed.exit_status = 0;
-    } catch (const CLI::ParseError& error) {
-        err << "error: " << error.what() << " (see --help)\n";
-        parsed.exit_status = 2;
-    }
+    };
+    parsed.exit_status = parse_or_tell(app, argc, argv, check, out, err);
     return parsed;
 }
 
