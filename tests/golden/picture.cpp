@@ -47,9 +47,14 @@ int channel_difference(const asset::Image& a, const asset::Image& b, size_t pixe
 
 }  // namespace
 
+fs::path work_folder() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    return fs::path(VELLUS_BINARY_DIR) / "golden" / test->test_suite_name() / test->name();
+}
+
 std::vector<asset::Image> render(const std::string& name,
                                  const std::vector<std::string>& arguments) {
-    const fs::path folder = fs::path(VELLUS_BINARY_DIR) / "golden" / name;
+    const fs::path folder = work_folder() / name;
     fs::remove_all(folder);
     std::vector<std::string> all = {VELLUS_DEMO, "--headless", "--validation", "--out",
                                     folder.string()};

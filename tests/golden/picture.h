@@ -8,6 +8,10 @@
 
 namespace vellus::test {
 
+/// Where the running test keeps its scenes and pictures: no other test's, so that all may run at
+/// once.
+std::filesystem::path work_folder();
+
 /// Runs vellus_demo headless with validation and returns the pictures it saved, in order; records a
 /// test failure, and returns none, where it does not end well.
 std::vector<asset::Image> render(const std::string& name,

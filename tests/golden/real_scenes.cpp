@@ -10,6 +10,7 @@
 #include "engine/platform/files.h"
 #include "modules/hair/binding/rest_mesh.h"
 #include "modules/hair/groom/groom_file.h"
+#include "tests/golden/picture.h"
 #include "tests/support/fur.h"
 
 namespace vellus::test {
@@ -19,7 +20,7 @@ using nlohmann::json;
 
 fs::path scene_with_hair(const std::string& name, const fs::path& glb, const std::string& node,
                          json hair, const std::function<void(json&)>& edit) {
-    const fs::path folder = fs::path(VELLUS_BINARY_DIR) / "golden" / "scenes";
+    const fs::path folder = work_folder() / "scenes";
     fs::create_directories(folder);
     auto bytes = read_file(glb);
     if (!bytes) return {};
@@ -68,7 +69,7 @@ fs::path write_fur(const std::string& name, const fs::path& glb, const std::stri
     EXPECT_TRUE(mesh);
     if (!mesh) return {};
     const Fur fur = grow_fur(mesh->positions, mesh->triangles, strands, length, 8);
-    const fs::path path = fs::path(VELLUS_BINARY_DIR) / "golden" / "scenes" / (name + ".glb");
+    const fs::path path = work_folder() / "scenes" / (name + ".glb");
     fs::create_directories(path.parent_path());
     const auto bytes = hair::write_glb(fur.groom);
     EXPECT_TRUE(bytes);
