@@ -76,12 +76,16 @@ PipelineLibrary::~PipelineLibrary() {
     for (VkSampler sampler : samplers_) vkDestroySampler(device_.handle(), sampler, nullptr);
 }
 
+void PipelineLibrary::embed(const EmbeddedShader& shader) {
+    sources_.try_emplace(std::string(shader.path), shader.words.begin(), shader.words.end());
+}
+
 Result<VkShaderModule> PipelineLibrary::module_for(const std::string& path) {
     std::span<const uint32_t> words;
-    if (const auto found = reloaded_.find(path); found != reloaded_.end()) {
+    if (const auto found = sources_.find(path); found != sources_.end()) {
         words = found->second;
     } else {
-        const auto table = embedded_shaders();
+        const auto table = vellus_shaders();
         const auto row = std::ranges::find(table, path, &EmbeddedShader::path);
         if (row != table.end()) words = row->words;
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/gpu/device.h"
+#include "engine/gpu/shader_table.h"
 
 namespace vellus::gpu {
 
@@ -69,6 +70,9 @@ class PipelineLibrary {
     /// Errors name the shader. The pointer stays valid as long as the library.
     Result<const Pipeline*> compute(const ComputeInfo& info);
     Result<const Pipeline*> raster(const RasterInfo& info);
+    /// Adds a shader from outside shaders/ (vellus_embed_shaders of CMake) under its own path; call
+    /// it before a pipeline asks for that path.
+    void embed(const EmbeddedShader& shader);
     /// Pipelines made so far: constant in a steady frame.
     [[nodiscard]] size_t created() const { return created_; }
     /// Debug builds: rebuilds pipelines of shaders that changed on disk since the last call; a
@@ -96,8 +100,8 @@ class PipelineLibrary {
     std::array<VkSampler, 3> samplers_{};
     Table<ComputeInfo> compute_;
     Table<RasterInfo> raster_;
-    /// SPIR-V that replaced the embedded words, by shader path.
-    std::map<std::string, std::vector<uint32_t>> reloaded_;
+    /// SPIR-V that replaces or adds to the embedded table, by shader path.
+    std::map<std::string, std::vector<uint32_t>> sources_;
     std::filesystem::path source_folder_;
     std::filesystem::file_time_type newest_source_;
     size_t created_ = 0;

@@ -84,13 +84,17 @@ Result<size_t> PipelineLibrary::reload_changed() {
         paths.insert(info.vertex_shader);
         if (!info.fragment_shader.empty()) paths.insert(info.fragment_shader);
     }
+    // What was embedded from elsewhere has no source here.
+    std::erase_if(paths, [&](const std::string& path) {
+        return sources_.contains(path) && !fs::exists(source_folder_ / path);
+    });
     for (const std::string& path : paths) {
         auto words = compile_shader(source_folder_, path);
         if (!words) {
             log_error("{}", words.error().message());
             return words.error();
         }
-        reloaded_[path] = std::move(*words);
+        sources_[path] = std::move(*words);
     }
     if (auto idle = device_.wait_idle(); !idle) return idle.error();
     size_t rebuilt = 0;

@@ -26,6 +26,7 @@ install(DIRECTORY engine modules DESTINATION include/vellus FILES_MATCHING PATTE
 # The mathematics headers compile as C++ too.
 install(DIRECTORY shaders DESTINATION include/vellus FILES_MATCHING PATTERN "*.glsl" PATTERN "*.h")
 
+install(FILES shaders/embed_shaders.cmake DESTINATION ${package_folder})
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/vellus-config.cmake.in
     ${PROJECT_BINARY_DIR}/vellus-config.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/vellus-config-version.cmake

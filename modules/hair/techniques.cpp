@@ -10,16 +10,42 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kOpacity = {"dither", "dither_still"};
 constexpr std::array<std::string_view, 2> kShadow = {"none", "pcf_exponential"};
-constexpr std::array<std::string_view, kScatteringTechniques> kScattering = {
-    "karis",    "kajiya_kay",   "marschner", "karis_rational", "series_gaussian", "series_a2",
-    "series_b", "series_exact", "deon"};
 constexpr std::array<std::string_view, 3> kMultiple = {"none", "fake_normal", "dual"};
 constexpr std::array<std::string_view, 2> kEnvironment = {"none", "sh"};
 
 constexpr std::array<std::string_view, 5> kAxes = {"opacity", "shadow", "scattering", "multiple",
                                                    "environment"};
-constexpr std::array<std::span<const std::string_view>, 5> kIds = {kOpacity, kShadow, kScattering,
-                                                                   kMultiple, kEnvironment};
+
+constexpr size_t kMostScattering = 64;
+
+/// The scattering axis, which the process may widen.
+struct ScatteringTable {
+    std::array<std::string_view, kMostScattering> ids = {
+        "karis",    "kajiya_kay",   "marschner", "karis_rational", "series_gaussian", "series_a2",
+        "series_b", "series_exact", "deon"};
+    std::array<gpu::EmbeddedShader, kMostScattering> stages{};
+    size_t count = kScatteringTechniques;
+};
+
+ScatteringTable& scattering() {
+    static ScatteringTable table;
+    return table;
+}
+
+std::span<const std::string_view> ids_of(size_t axis) {
+    switch (axis) {
+        case 0:
+            return kOpacity;
+        case 1:
+            return kShadow;
+        case 2:
+            return std::span(scattering().ids).first(scattering().count);
+        case 3:
+            return kMultiple;
+        default:
+            return kEnvironment;
+    }
+}
 
 std::string joined(std::span<const std::string_view> words) {
     std::string line;
@@ -36,13 +62,34 @@ size_t index_of(std::span<const std::string_view> words, std::string_view word) 
 
 }  // namespace
 
+Result<ScatteringTechnique> add_scattering(std::string_view id, const gpu::EmbeddedShader& shade) {
+    ScatteringTable& table = scattering();
+    const auto ids = std::span(table.ids).first(table.count);
+    if (std::ranges::find(ids, id) != ids.end()) {
+        return Error{fmt::format("there is a technique '{}' already", id), "scattering",
+                     "give it another id"};
+    }
+    if (table.count == kMostScattering) {
+        return Error{fmt::format("no room for a technique '{}'", id), "scattering",
+                     fmt::format("the axis holds {}", kMostScattering)};
+    }
+    table.ids[table.count] = id;
+    table.stages[table.count] = shade;
+    return static_cast<ScatteringTechnique>(table.count++);
+}
+
+const gpu::EmbeddedShader* added_stage(ScatteringTechnique technique) {
+    const auto index = static_cast<size_t>(technique);
+    return index < kScatteringTechniques ? nullptr : &scattering().stages[index];
+}
+
 std::span<const std::string_view> axes() {
     return kAxes;
 }
 
 std::span<const std::string_view> technique_ids(std::string_view axis) {
     const size_t index = index_of(kAxes, axis);
-    return index < kAxes.size() ? kIds[index] : std::span<const std::string_view>();
+    return index < kAxes.size() ? ids_of(index) : std::span<const std::string_view>();
 }
 
 Result<void> set_technique(HairTechniques& techniques, std::string_view axis, std::string_view id) {
@@ -51,10 +98,10 @@ Result<void> set_technique(HairTechniques& techniques, std::string_view axis, st
         return Error{fmt::format("no such axis '{}'", axis), "technique",
                      "choose one of: " + joined(kAxes)};
     }
-    const size_t value = index_of(kIds[index], id);
-    if (value == kIds[index].size()) {
+    const size_t value = index_of(ids_of(index), id);
+    if (value == ids_of(index).size()) {
         return Error{fmt::format("no technique '{}' on the axis '{}'", id, axis), "technique",
-                     "choose one of: " + joined(kIds[index])};
+                     "choose one of: " + joined(ids_of(index))};
     }
     switch (index) {
         case 0:
@@ -92,7 +139,7 @@ std::string_view technique_id(const HairTechniques& techniques, std::string_view
         static_cast<size_t>(techniques.scattering), static_cast<size_t>(techniques.multiple),
         static_cast<size_t>(techniques.environment)};
     const size_t index = index_of(kAxes, axis);
-    return index < kAxes.size() ? kIds[index][chosen[index]] : std::string_view();
+    return index < kAxes.size() ? ids_of(index)[chosen[index]] : std::string_view();
 }
 
 }  // namespace vellus::hair

@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "engine/gpu/shader_table.h"
 #include "engine/platform/result.h"
 #include "modules/hair/groom/hair_extension.h"
 
@@ -11,7 +12,7 @@ namespace vellus::hair {
 
 enum class OpacityTechnique : uint8_t { kDither, kDitherStill };
 enum class ShadowTechnique : uint8_t { kNone, kPcfExponential };
-/// In the order of shaders/hair/scattering/scattering.glsl.
+/// In the order of shaders/hair/scattering/scattering.glsl; add_scattering makes further values.
 enum class ScatteringTechnique : uint8_t {
     kKaris,
     kKajiyaKay,
@@ -36,6 +37,13 @@ struct HairTechniques {
     MultipleTechnique multiple = MultipleTechnique::kFakeNormal;
     EnvironmentTechnique environment = EnvironmentTechnique::kSh;
 };
+
+/// Adds a technique to the scattering axis, for the whole process; call it before worlds are made
+/// and from one thread. `shade` is the stage that draws it, made as ADD_A_TECHNIQUE.md says.
+/// Errors: the id is taken, or there are too many.
+Result<ScatteringTechnique> add_scattering(std::string_view id, const gpu::EmbeddedShader& shade);
+/// The stage of an added technique; null for the module's own.
+const gpu::EmbeddedShader* added_stage(ScatteringTechnique technique);
 
 /// The axes in their order, and the ids of the techniques on one of them, in the enum's order.
 std::span<const std::string_view> axes();

@@ -38,10 +38,10 @@ struct ShadePush {
 };
 static_assert(sizeof(ShadePush) == 48);
 
-gpu::ComputeInfo compute_info(const char* shader, uint32_t push_bytes,
+gpu::ComputeInfo compute_info(std::string_view shader, uint32_t push_bytes,
                               std::vector<gpu::Binding> bindings = {},
                               std::vector<uint32_t> constants = {}) {
-    return {.shader = shader,
+    return {.shader = std::string(shader),
             .bindings = std::move(bindings),
             .push_bytes = push_bytes,
             .constants = std::move(constants)};
@@ -293,7 +293,10 @@ bool make_pipelines(const HairFrame& hair, const light::LightBlock& lights,
         const ShadeConstants constants = shade_constants(draw, lights);
         ready &= frame.compute(pipelines.shade[constants], [&] {
             using enum gpu::Binding;
-            return compute_info("hair/scattering/shade.comp.glsl", sizeof(ShadePush),
+            const gpu::EmbeddedShader* added = added_stage(draw.scattering);
+            if (added) frame.device->pipelines().embed(*added);
+            return compute_info(added ? added->path : "hair/scattering/shade.comp.glsl",
+                                sizeof(ShadePush),
                                 {kSampledNearest, kSampledNearest, kStorage, kStorage, kUniform,
                                  kUniform, kUniform, kUniform},
                                 {constants.begin(), constants.end()});

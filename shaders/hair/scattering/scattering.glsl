@@ -25,9 +25,13 @@ const int kMultipleFakeNormal = 1;
 const int kMultipleDual = 2;
 
 /// S of single scattering [1/sr] for a beam from `to_light` (unit). karis and kajiya_kay use neither
-/// `fibre` nor `e`.
+/// `fibre` nor `e`. A technique from outside the module (modules/hair/ADD_A_TECHNIQUE.md) defines the macro
+/// VELLUS_HAIR_BSDF(fibre, s, f, e, to_light) in its own stage and is alone there.
 VELLUS_FN vec3 hair_bsdf(int technique, VELLUS_IN(HairFibre) fibre, HairSurface s, HairFrame f, HairEye e,
                          vec3 to_light) {
+#ifdef VELLUS_HAIR_BSDF
+    return VELLUS_HAIR_BSDF(fibre, s, f, e, to_light);
+#else
     if (technique == kScatteringKaris) return karis_bsdf(s, f, to_light);
     if (technique == kScatteringKajiyaKay) return kajiya_kay_bsdf(s, f, to_light);
     if (technique == kScatteringMarschner) return marschner_bsdf(fibre, s, f, to_light);
@@ -36,6 +40,7 @@ VELLUS_FN vec3 hair_bsdf(int technique, VELLUS_IN(HairFibre) fibre, HairSurface 
         return karis_tier_bsdf(kLongitudinalB, fibre, s, f, e, to_light);
     }
     return series_bsdf(technique - kScatteringSeriesGaussian, fibre, s, f, e, to_light);
+#endif
 }
 
 /// Radiance to the eye per unit irradiance across the beam; `shadow` in [0, 1] is the light that passes the

@@ -1,0 +1,107 @@
+#include "common/view.glsl"
+#include "hair/cards/sample.glsl"
+#include "hair/geometry/instance.glsl"
+#include "hair/scattering/scattering.glsl"
+#include "hair/shadow/hair_shadow.glsl"
+#include "light/opaque_shadow.glsl"
+
+// The stage of pass hair/shade. A technique from outside the module includes it after defining
+// VELLUS_HAIR_BSDF (hair/scattering/scattering.glsl).
+//
+// Shades the pixels whose closest visible segment belongs to one groom and puts them over what is
+// behind. What all pixels share comes from uniform blocks at fixed offsets, and what this groom or
+// frame does not call for is compiled out.
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint kLightCount = 4;
+layout(constant_id = 1) const bool kShadowed = true;
+layout(constant_id = 2) const bool kEnvironmentLit = true;
+layout(constant_id = 3) const bool kOpaqueCasters = true;
+layout(constant_id = 5) const int kScattering = 0;
+layout(constant_id = 6) const int kMultiple = 1;
+layout(constant_id = 4) const bool kDeformed = false;  // its points move by themselves
+layout(constant_id = 7) const bool kCards = false;
+
+layout(push_constant, scalar) uniform Push {
+    LongWords visibility;
+    ProjectedPoints projected;  // CardVertices where the groom is of cards
+    uint first_id;
+    uint segment_count;
+    ivec2 first_pixel;  // of the rectangle that holds the groom
+    ivec2 end_pixel;
+    int width;  // of the picture
+    uint padding;
+};
+layout(binding = 0) uniform sampler2D opaque_depth;
+layout(binding = 1) uniform sampler2D opaque_shadows;
+layout(binding = 2, rgba16f) uniform writeonly image2D color;
+layout(binding = 3, rg16f) uniform writeonly image2D velocity;
+layout(binding = 4, scalar) uniform Views { View view; };
+layout(binding = 5, scalar) uniform LightsBlock { LightBlock lights; };
+layout(binding = 6, scalar) uniform Instance { HairInstance hair; };
+// Where the techniques need no fibre, something else is bound and nothing read.
+layout(binding = 7, scalar) uniform Fibre { HairFibre fibre; };
+
+/// Of the light, what passes the hair in front; `opaque` is what passes everything else.
+float shadow_of(PunctualLight light, vec3 position, out float opaque) {
+    opaque = 1.0;
+    if (!kShadowed || light.shadow_tile == kNoShadow) return 1.0;
+    float texel = shadow_texel_metres(light, light.hair_texel, light.kind == kLightSun
+                                                 ? 1.0
+                                                 : distance(light.position, position));
+    if (kOpaqueCasters) opaque = opaque_visibility(opaque_shadows, light, position);
+    return hair_transmittance(light, position, hair.shadow_falloff, hair.shadow_first + texel);
+}
+
+vec3 shade(HairSurface surface, vec3 position, vec3 tangent) {
+    HairFrame frame = hair_frame(tangent, normalize(-position));
+    HairEye eye = hair_eye(fibre, frame);
+    vec3 radiance = vec3(0.0);
+    [[unroll]] for (uint i = 0u; i < kLightCount; ++i) {
+        vec3 to_light;
+        vec3 irradiance = light_irradiance(lights.light[i], position, to_light);
+        float opaque;
+        float shadow = shadow_of(lights.light[i], position, opaque);
+        radiance += irradiance * opaque * hair_direct(kScattering, kMultiple, fibre, surface, frame, eye,
+                                             to_light, shadow);
+    }
+    if (kEnvironmentLit) {
+        radiance += karis_environment(surface, frame,
+                                      sh_irradiance_over_pi(lights.environment, frame.normal));
+    }
+    return radiance;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + first_pixel;
+    if (any(greaterThanEqual(pixel, end_pixel))) return;
+    uint64_t key = visibility.at[pixel.y * width + pixel.x];
+    uint segment = uint(key & 0xffffffffUL) - 1u - first_id;
+    if (segment >= segment_count) return;
+    if (texelFetch(opaque_depth, pixel, 0).x >= uintBitsToFloat(uint(key >> 32))) return;
+
+    vec2 center = vec2(pixel) + 0.5;
+    HairSample at;
+    vec3 previous;
+    if (kCards) {
+        CardSet cards = Cards(hair.cards).set;
+        CardVertices vertices = CardVertices(uint64_t(projected));
+        at = card_sample(cards, vertices, segment, center);
+        previous = at.position;
+        if (kDeformed) previous += card_previous_offset(hair, cards, vertices, segment, center);
+    } else {
+        at = hair_sample(hair, projected, segment, center);
+        previous = kDeformed ? hair_previous_position(hair, at, segment) : at.position;
+    }
+    HairSurface surface = HairSurface(hair_color(hair, at), hair.specular, hair.roughness,
+                                      hair.scatter, hair.shift);
+    vec3 position = (hair.to_relative * vec4(at.position, 1.0)).xyz;
+    vec3 tangent = normalize(mat3(hair.to_relative) * at.tangent);
+    vec3 radiance = shade(surface, position, tangent);
+    imageStore(color, pixel, vec4(min(radiance, vec3(60000.0)), 1.0));
+
+    vec4 before = hair.previous_to_clip * vec4(previous, 1.0);
+    vec2 moved = view.cut != 0u || before.w <= 0.0
+                     ? vec2(0.0)
+                     : view_velocity(view, hair.to_clip * vec4(at.position, 1.0), before);
+    imageStore(velocity, pixel, vec4(moved, 0.0, 0.0));
+}
