@@ -8,6 +8,7 @@ template <class Function>
 void for_each_button(Input& input, Function&& function) {
     for (Button& button : input.keys) function(button);
     for (Button& button : input.mouse) function(button);
+    for (Button& button : input.gamepad.buttons) function(button);
 }
 
 }  // namespace

@@ -28,11 +28,35 @@ struct Button {
     bool released = false;
 };
 
-/// The first connected gamepad, in the layout of an Xbox controller.
+/// Buttons of a gamepad in the layout of an Xbox controller, in GLFW's order.
+enum class PadButton : uint8_t {
+    kA,
+    kB,
+    kX,
+    kY,
+    kLeftBumper,
+    kRightBumper,
+    kBack,
+    kStart,
+    kGuide,
+    kLeftThumb,
+    kRightThumb,
+    kUp,
+    kRight,
+    kDown,
+    kLeft,
+    kCount,
+};
+
+/// The first connected gamepad.
 struct Gamepad {
     bool connected = false;
-    std::array<bool, 15> buttons{};  ///< GLFW order: A, B, X, Y, bumpers, back, start, ...
-    std::array<float, 6> axes{};     ///< left x, y, right x, y in [-1, 1]; triggers in [-1, 1]
+    std::array<Button, static_cast<size_t>(PadButton::kCount)> buttons{};
+    std::array<float, 6> axes{};  ///< left x, y, right x, y in [-1, 1]; triggers, -1 at rest
+
+    [[nodiscard]] const Button& button(PadButton button) const {
+        return buttons[static_cast<size_t>(button)];
+    }
 };
 
 /// Everything the user did between two polls; positions in window coordinates, y down.
@@ -43,6 +67,7 @@ struct Input {
     double cursor_dx = 0.0, cursor_dy = 0.0;
     double scroll_x = 0.0, scroll_y = 0.0;  ///< wheel steps, up is positive
     Gamepad gamepad;
+    double seconds = 0.0;  ///< since the poll before
 
     [[nodiscard]] const Button& key(Key key) const { return keys[static_cast<size_t>(key)]; }
     [[nodiscard]] const Button& button(MouseButton button) const {

@@ -162,14 +162,19 @@ void Window::poll(double wait_seconds) {
     resized_ = size != last_size_;
     last_size_ = size;
     poll_gamepad();
+    const double now = glfwGetTime();
+    input_.seconds = now - last_poll_;
+    last_poll_ = now;
 }
 
 void Window::poll_gamepad() {
     GLFWgamepadstate state;
     input_.gamepad.connected = glfwGetGamepadState(GLFW_JOYSTICK_1, &state) == GLFW_TRUE;
-    if (!input_.gamepad.connected) return;
-    std::ranges::transform(state.buttons, input_.gamepad.buttons.begin(),
-                           [](unsigned char down) { return down == GLFW_PRESS; });
+    // One that is unplugged lets everything go.
+    if (!input_.gamepad.connected) state = {};
+    for (size_t i = 0; i < input_.gamepad.buttons.size(); ++i) {
+        set_button(input_.gamepad.buttons[i], state.buttons[i] == GLFW_PRESS);
+    }
     std::ranges::copy(state.axes, input_.gamepad.axes.begin());
 }
 

@@ -64,6 +64,7 @@ class Window {
 
     GLFWwindow* window_ = nullptr;
     Input input_;
+    double last_poll_ = 0.0;
     FramebufferSize last_size_;
     bool resized_ = false;
 };

@@ -10,11 +10,14 @@ namespace {
 constexpr double kTurnPerHeight = 3.0;  ///< radians for a drag over the window's height
 constexpr double kScrollStep = 0.88;    ///< distance after one step of the wheel
 constexpr double kMaxPitch = 1.55;      ///< short of the pole, where yaw would jump
-constexpr double kStickDeadZone = 0.15;
-constexpr double kStickTurn = 0.03;  ///< radians a frame
+constexpr float kStickDeadZone = 0.15f;
+constexpr double kStickTurn = 2.0;     ///< radians a second
+constexpr double kTriggerSteps = 5.0;  ///< of the wheel, a second
 
+/// From 0 at the edge of the dead zone, so that nothing jumps, to 1.
 double stick(float value) {
-    return std::abs(value) < kStickDeadZone ? 0.0 : value;
+    const float beyond = (std::abs(value) - kStickDeadZone) / (1.0f - kStickDeadZone);
+    return std::copysign(std::clamp(beyond, 0.0f, 1.0f), value);
 }
 
 void turn(Orbit& orbit, double right, double down) {
@@ -67,10 +70,12 @@ bool steer(Orbit& orbit, const Input& input, double height) {
         const double right = stick(input.gamepad.axes[2]);
         const double down = stick(input.gamepad.axes[3]);
         if (right != 0.0 || down != 0.0) {
-            turn(orbit, kStickTurn * right, kStickTurn * down);
+            const double angle = kStickTurn * input.seconds;
+            turn(orbit, angle * right, angle * down);
             steered = true;
         }
-        closer += 0.1 * stick(0.5f * (input.gamepad.axes[5] - input.gamepad.axes[4]));
+        closer += kTriggerSteps * input.seconds *
+                  stick(0.5f * (input.gamepad.axes[5] - input.gamepad.axes[4]));
     }
     if (closer != 0.0) {
         orbit.distance = std::clamp(orbit.distance * std::pow(kScrollStep, closer), 1e-3, 1e6);
@@ -89,8 +94,8 @@ void look_around(Orbit& orbit, const Input& input, double height) {
         down = kTurnPerHeight * input.cursor_dy / std::max(height, 1.0);
     }
     if (input.gamepad.connected) {
-        right += kStickTurn * stick(input.gamepad.axes[2]);
-        down += kStickTurn * stick(input.gamepad.axes[3]);
+        right += kStickTurn * input.seconds * stick(input.gamepad.axes[2]);
+        down += kStickTurn * input.seconds * stick(input.gamepad.axes[3]);
     }
     turn(orbit, right, down);
     orbit.target += eye - pose_of(orbit).position;
@@ -111,20 +116,21 @@ glm::dvec3 movement(const Input& input) {
 
 Wishes read_wishes(const Input& input) {
     const auto pressed = [&](Key key) { return input.key(key).pressed; };
-    Wishes wishes{
-        .quit = pressed(Key::kEscape),
-        .pause = pressed(Key::kSpace),
-        .step = pressed(Key::kN),
-        .screenshot = pressed(Key::kF12) || pressed(Key::kP),
-        .help = pressed(Key::kF1) || pressed(Key::kH),
-        .panels = pressed(Key::kTab),
-        .taa = pressed(Key::kT),
-        .home = pressed(Key::kHome),
-        .next_camera = pressed(Key::kC),
-        .turntable = pressed(Key::kR),
-        .turntable_pictures = pressed(Key::kO),
-        .next_scene = pressed(Key::kF4),
-        .hours = (pressed(Key::kPageUp) ? 0.5 : 0.0) - (pressed(Key::kPageDown) ? 0.5 : 0.0)};
+    const auto pad = [&](PadButton button) { return input.gamepad.button(button).pressed; };
+    Wishes wishes{.quit = pressed(Key::kEscape),
+                  .pause = pressed(Key::kSpace) || pad(PadButton::kStart),
+                  .step = pressed(Key::kN) || pad(PadButton::kX),
+                  .screenshot = pressed(Key::kF12) || pressed(Key::kP) || pad(PadButton::kY),
+                  .help = pressed(Key::kF1) || pressed(Key::kH),
+                  .panels = pressed(Key::kTab),
+                  .taa = pressed(Key::kT),
+                  .home = pressed(Key::kHome) || pad(PadButton::kRightThumb),
+                  .next_camera = pressed(Key::kC) || pad(PadButton::kBack),
+                  .turntable = pressed(Key::kR),
+                  .turntable_pictures = pressed(Key::kO),
+                  .next_scene = pressed(Key::kF4) || pad(PadButton::kB),
+                  .hours = (pressed(Key::kPageUp) || pad(PadButton::kRightBumper) ? 0.5 : 0.0) -
+                           (pressed(Key::kPageDown) || pad(PadButton::kLeftBumper) ? 0.5 : 0.0)};
     constexpr std::array kAxisKeys = {Key::k1, Key::k2, Key::k3, Key::k4, Key::k5};
     for (size_t axis = 0; axis < kAxisKeys.size(); ++axis) {
         if (pressed(kAxisKeys[axis])) wishes.next_technique = axis;
@@ -140,7 +146,10 @@ const char* controls_help() {
            "P or F12        screenshot      O           a turn of pictures\n"
            "PageUp PageDown time of day     F4          next scene     T      TAA on or off\n"
            "1 2 3 4 5       next technique for opacity, shadow, scattering, multiple, environment\n"
-           "Tab             panels          H or F1     this help      Esc    end\n";
+           "Tab             panels          H or F1     this help      Esc    end\n"
+           "gamepad: left stick walks, right stick turns, triggers come closer; Start pause, X "
+           "step,\n"
+           "         Y screenshot, Back camera, B scene, bumpers time of day\n";
 }
 
 }  // namespace vellus::demo

@@ -21,7 +21,8 @@ struct Orbit {
 Orbit orbit_from(const scene::CameraPose& pose, const glm::dvec3& center);
 scene::CameraPose pose_of(const Orbit& orbit);
 /// Drag turns, right or middle drag moves, the wheel comes closer, so do a gamepad's sticks and
-/// triggers; `height` of the window in screen coordinates. False where nothing changed.
+/// triggers, by the seconds of `input`; `height` of the window in screen coordinates. False where
+/// nothing changed.
 bool steer(Orbit& orbit, const Input& input, double height);
 /// Drag and right stick turn the view about the camera itself.
 void look_around(Orbit& orbit, const Input& input, double height);

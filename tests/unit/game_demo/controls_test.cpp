@@ -86,6 +86,53 @@ TEST(Steer, NothingHeldChangesNothing) {
     EXPECT_FALSE(steer(orbit, input, kHeight));
 }
 
+Input tilted(size_t axis, float value, double seconds) {
+    Input input;
+    input.gamepad.connected = true;
+    input.gamepad.axes = {0.0f, 0.0f, 0.0f, 0.0f, -1.0f, -1.0f};
+    input.gamepad.axes[axis] = value;
+    input.seconds = seconds;
+    return input;
+}
+
+TEST(Gamepad, TheRightStickTurnsAsFarInASecondAtAnyFrameRate) {
+    Orbit slow;
+    Orbit fast;
+    EXPECT_TRUE(steer(slow, tilted(2, 0.6f, 0.1), kHeight));
+    for (int i = 0; i < 10; ++i) steer(fast, tilted(2, 0.6f, 0.01), kHeight);
+    EXPECT_NEAR(slow.yaw, fast.yaw, 1e-12);
+    EXPECT_LT(slow.yaw, -0.05);
+    Orbit unplugged;
+    Input input = tilted(2, 0.6f, 0.1);
+    input.gamepad.connected = false;
+    EXPECT_FALSE(steer(unplugged, input, kHeight));
+}
+
+TEST(Gamepad, AStickStartsAtNothingBeyondItsDeadZoneAndEndsAtOne) {
+    EXPECT_EQ(movement(tilted(0, 0.15f, 0.0)).x, 0.0);
+    EXPECT_NEAR(movement(tilted(0, 0.16f, 0.0)).x, 0.01 / 0.85, 1e-6);
+    EXPECT_EQ(movement(tilted(1, -1.0f, 0.0)), glm::dvec3(0.0, 0.0, -1.0));
+}
+
+TEST(Gamepad, TheRightTriggerComesCloserAndTheLeftGoesBack) {
+    Orbit orbit{.distance = 5.0};
+    EXPECT_TRUE(steer(orbit, tilted(5, 1.0f, 0.1), kHeight));
+    EXPECT_LT(orbit.distance, 5.0);
+    EXPECT_TRUE(steer(orbit, tilted(4, 1.0f, 0.1), kHeight));
+    EXPECT_NEAR(orbit.distance, 5.0, 1e-12);
+}
+
+TEST(Gamepad, AButtonAsksOnceHoweverLongItIsHeld) {
+    Input input;
+    set_button(input.gamepad.buttons[static_cast<size_t>(PadButton::kStart)], true);
+    set_button(input.gamepad.buttons[static_cast<size_t>(PadButton::kLeftBumper)], true);
+    EXPECT_TRUE(read_wishes(input).pause);
+    EXPECT_EQ(read_wishes(input).hours, -0.5);
+    begin_input_frame(input);
+    EXPECT_FALSE(read_wishes(input).pause);
+    EXPECT_EQ(read_wishes(input).hours, 0.0);
+}
+
 TEST(Wishes, AKeyAsksOnceHoweverLongItIsHeld) {
     Input input;
     set_button(input.keys[static_cast<size_t>(Key::kP)], true);
