@@ -1,5 +1,6 @@
 #include "engine/frame_graph/execute.h"
 
+#include <bit>
 #include <chrono>
 
 #include "engine/frame_graph/frame_slot.h"
@@ -98,8 +99,8 @@ void Executor::State::bind_imports(const GraphDescription& graph) {
         if (resource.origin != Origin::kImported) continue;
         Physical& p = physical[i];
         if (resource.native_image) {
-            p.image = reinterpret_cast<VkImage>(resource.native_image);
-            p.whole = reinterpret_cast<VkImageView>(resource.native_view);
+            p.image = std::bit_cast<VkImage>(resource.native_image);
+            p.whole = std::bit_cast<VkImageView>(resource.native_view);
         } else if (resource.kind == ResourceKind::kImage && resource.external) {
             const auto& image = *static_cast<const gpu::Image*>(resource.external);
             p.image = image.handle();
