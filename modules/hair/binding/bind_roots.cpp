@@ -49,7 +49,7 @@ RestFrame place_root(const RestMesh& mesh, const TriangleTree& tree, const glm::
     const glm::dmat2 inverse = glm::inverse(edges);
     root.rest_inverse = {inverse[0][0], inverse[0][1], inverse[1][0], inverse[1][1]};
     return {mesh.positions[v.x] + e1 * bary.x + e2 * bary.y,
-            glm::dmat3(glm::dvec3(x), glm::dvec3(n), glm::dvec3(glm::cross(n, x)))};
+            glm::dmat3(glm::dvec3(x), glm::dvec3(n), glm::dvec3(glm::cross(x, n)))};
 }
 
 /// Keeps the vertices some root stands on, in their order.

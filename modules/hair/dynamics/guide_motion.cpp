@@ -61,6 +61,7 @@ GuideMotion::GuideMotion(GuideSet guides)
 void GuideMotion::reset() {
     state_ = rest_state(guides_);
     started_ = asleep_ = false;
+    fresh_ = true;
     behind_ = 0.0;
     still_steps_ = 0;
 }
@@ -93,6 +94,7 @@ void GuideMotion::begin(const MotionFrame& frame) {
     roots_.assign(frame.roots.begin(), frame.roots.end());
     capsules_.assign(frame.capsules.begin(), frame.capsules.end());
     started_ = true;
+    fresh_ = true;
 }
 
 const MotionWork& GuideMotion::prepare(const MotionSettings& settings, const MotionFrame& given) {
@@ -102,7 +104,8 @@ const MotionWork& GuideMotion::prepare(const MotionSettings& settings, const Mot
     work_.params.substeps = 0;
     if (guides_.count == 0) return work_;
     if (!preloaded_) preload(frame);
-    if (!started_) begin(frame);
+    const bool began = !started_;
+    if (began) begin(frame);
     if (asleep_) {
         if (!disturbed(settings, frame)) {
             ++counts_.asleep;
@@ -130,7 +133,7 @@ const MotionWork& GuideMotion::prepare(const MotionSettings& settings, const Mot
     const auto steps = static_cast<uint32_t>(std::min(due, double{kMostMotionSteps}));
     const bool late = due > kMostMotionSteps;
     const double share = late ? 1.0 : std::min(steps * kMotionStep / behind_, 1.0);
-    set_params(settings, frame, steps, carry);
+    set_params(settings, frame, steps, carry || began);
     take_capsules(frame, share, carry);
     take_roots(frame, share, carry);
     behind_ = late ? 0.0 : std::max(behind_ - steps * kMotionStep, 0.0);
@@ -140,7 +143,7 @@ const MotionWork& GuideMotion::prepare(const MotionSettings& settings, const Mot
 }
 
 void GuideMotion::set_params(const MotionSettings& settings, const MotionFrame& frame,
-                             uint32_t steps, bool carry) {
+                             uint32_t steps, bool unmoved) {
     const float bend = std::clamp(settings.bend_length, 1e-3f, 2.0f);
     glsl::RodParams& p = work_.params;
     p.gravity = glm::vec3(0.0f, -9.81f, 0.0f) * settings.gravity;
@@ -161,7 +164,9 @@ void GuideMotion::set_params(const MotionSettings& settings, const MotionFrame& 
     p.hold = std::clamp(settings.hold, 0.0f, 100.0f);
     p.friction = std::clamp(settings.friction, 0.0f, 1000.0f);
     p.inertia = 1.0f;
-    p.memory = carry ? 0.0f : 1.0f;
+    // Hair that was not there a frame ago goes along with its root, as fast as that turns out to be.
+    p.memory = fresh_ ? 0.0f : 1.0f;
+    fresh_ = unmoved;
     p.scale = static_cast<float>(frame.scale);
     p.substeps = steps;
     p.capsules = static_cast<uint32_t>(frame.capsules.size());

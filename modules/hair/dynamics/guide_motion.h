@@ -84,7 +84,7 @@ class GuideMotion {
     void preload(const MotionFrame& frame);
     void begin(const MotionFrame& frame);
     void set_params(const MotionSettings& settings, const MotionFrame& frame, uint32_t steps,
-                    bool carry);
+                    bool unmoved);
     void take_roots(const MotionFrame& frame, double share, bool carry);
     void take_capsules(const MotionFrame& frame, double share, bool carry);
     void note_rest(uint32_t steps);
@@ -102,6 +102,7 @@ class GuideMotion {
     uint32_t still_steps_ = 0;
     bool stirred_ = false;
     bool started_ = false;
+    bool fresh_ = true;  ///< speeds are not known yet
     bool preloaded_ = false;
     bool asleep_ = false;
 };

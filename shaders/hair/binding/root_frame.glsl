@@ -25,7 +25,8 @@ VELLUS_FN vec3 map_normal(mat4x3 m, vec3 n) {
     return dot(m[0], x) < 0.0f ? -turned : turned;
 }
 
-/// Axes (tangent, normal, bitangent) of the root frame, orthonormal whatever the triangle. `e1`, `e2`: its
+/// Axes (tangent, normal, bitangent) of the root frame, orthonormal whatever the triangle, and a rotation
+/// (right-handed) where the mesh is not mirrored. `e1`, `e2`: its
 /// edges from the first vertex; `normal`: wanted direction, any length; `handedness`: -1 where the mesh is
 /// mirrored against its rest. The turn about the normal is the rotation nearest to the triangle's in-plane
 /// deformation (polar decomposition in 2D), so that it depends on no choice of edge and shear turns all
@@ -44,7 +45,7 @@ VELLUS_FN mat3 root_axes(vec3 e1, vec3 e2, vec3 normal, vec4 rest_inverse, float
     float squared = dot(turn, turn);
     turn = squared > 1.0e-18f && is_finite(squared) ? turn * inversesqrt(squared) : vec2(1.0f, 0.0f);
     vec3 t = x * turn.x + y * turn.y;
-    return mat3(t, n, cross(n, t) * handedness);
+    return mat3(t, n, cross(t, n) * handedness);
 }
 
 #endif

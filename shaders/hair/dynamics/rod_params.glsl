@@ -17,7 +17,7 @@ struct RodParams {
     float hold;         // per link, over the moment of the whole strand's weight at it
     float friction;     // 1/s, along a collider
     float inertia;      // share of the root's travel that the strand feels as a jolt
-    float memory;       // 1, or 0 to forget velocities (after a teleport)
+    float memory;       // 1, or 0 to start as fast as the root (first seen, after a teleport)
     float scale;        // metres per metre of the guides' rest
     uint substeps;
     uint capsules;

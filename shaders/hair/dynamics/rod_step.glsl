@@ -221,10 +221,17 @@ VELLUS_FN void rod_substep(float substep, float begin, float end, real total, re
 /// All substeps of a frame. Between frames rotations and velocities are kept in the root's frame.
 VELLUS_FN void rod_frame() {
     real total = real(0.0f);
+    real rate = real(1.0f) / real(rod_params.step);
+    rvec3 spin = rod_rotation_vector(rod_spin) * rate;
+    rvec3 carried = (rod_place1 - rod_place0) *
+                    (rate * real(rod_params.inertia / float(rod_params.substeps)));
     for (int i = 0; i < rod_links; ++i) {
         total = total + rod_length(rod_sized(i));
-        rod_set_rotation(i, rod_multiply(rod_turn, rod_rotation(i)));
-        rod_set_velocity(i, rod_rotate(rod_turn, rod_velocity(i)) * real(rod_params.memory));
+        rvec4 rotation = rod_multiply(rod_turn, rod_rotation(i));
+        rod_set_rotation(i, rotation);
+        carried = carried + rod_cross(spin, rod_rotate(rotation, rod_sized(i)));
+        rod_set_velocity(i, rod_rotate(rod_turn, rod_velocity(i)) * real(rod_params.memory) +
+                                carried * real(1.0f - rod_params.memory));
     }
     real root_depth = rod_find_near(total);
     float share = 1.0f / float(rod_params.substeps);

@@ -66,6 +66,7 @@ TEST(RootAxes, AreARotationThatFollowsARigidTriangle) {
         Random random(11, sample);
         const Rest rest = random_rest(random);
         ASSERT_LT(off_orthonormal(rest.axes), 3e-6f);
+        ASSERT_GT(glm::determinant(rest.axes), 0.0f) << "motion takes the axes as a rotation";
         const glm::quat turn = glm::angleAxis(static_cast<float>(random.range(0, 6.28)),
                                               glm::vec3(random.direction()));
         const float scale = static_cast<float>(random.log_range(1e-3, 1e3));
