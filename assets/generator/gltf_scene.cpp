@@ -228,6 +228,10 @@ Node GltfScene::add_hair(const std::string& name, const std::string& groom, dvec
                     parent);
 }
 
+Node GltfScene::add_collider(const BodyCapsule& capsule, dvec3 joint_at, Node joint) {
+    return add_node(collider_node(capsule, joint_at), joint);
+}
+
 Node GltfScene::add_sun(dvec3 to_sun, dvec3 color, double intensity) {
     lights_.push_back({{"name", "sun"},
                        {"type", "directional"},

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/generator/body_colliders.h"
 #include "assets/generator/gltf_buffer.h"
 #include "assets/generator/gltf_values.h"
 #include "assets/generator/ground.h"
@@ -65,6 +66,8 @@ class GltfScene {
     /// extension's other fields come from `look`.
     Node add_hair(const std::string& name, const std::string& groom, glm::dvec3 place,
                   const Json& look, Node parent);
+    /// A VELLUS_collider below `joint`, whose place and the capsule's are in the same space.
+    Node add_collider(const BodyCapsule& capsule, glm::dvec3 joint_at, Node joint);
     Node add_sun(glm::dvec3 to_sun, glm::dvec3 color, double intensity);
 
     [[nodiscard]] const std::string& name() const { return name_; }

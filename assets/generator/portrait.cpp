@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
+#include "assets/generator/body_colliders.h"
 #include "assets/generator/gltf_buffer.h"
 #include "assets/generator/gltf_values.h"
 
@@ -140,6 +141,7 @@ Json groom_transform() {
 
 Json hair_extension() {
     return {{"groom", "../grooms/long.hair"},
+            {"motion", {{"bend_length", 0.08}, {"drag", 1.2}, {"hold", 0.35}}},
             {"upright", false},
             {"transform", groom_transform()},
             {"width", {{"root", 0.00011}, {"tip_scale", 0.35}}},
@@ -157,6 +159,15 @@ Json brows_extension() {
             {"width", {{"root", 0.00013}, {"tip_scale", 0.2}}},
             {"material",
              {{"melanin", {{"eumelanin", 3.0}, {"pheomelanin", 0.6}}}, {"roughness", 0.45}}}};
+}
+
+void add_colliders(Json& nodes) {
+    for (const BodyCapsule& capsule : body_capsules()) {
+        const bool head = capsule.part == BodyPart::kHead;
+        const bool neck = capsule.part == BodyPart::kNeck;
+        nodes[head ? kHeadNode : neck ? kNeckNode : kTorsoNode]["children"].push_back(nodes.size());
+        nodes.push_back(collider_node(capsule, head ? kHead : neck ? kNeck : kTorso));
+    }
 }
 
 Json nodes() {
@@ -191,6 +202,7 @@ Json nodes() {
                       {"camera", 0}});
     result.push_back(light("sun", 0, dvec3(0.0, 2.0, 0.0), -dvec3(0.45, 0.62, 0.64)));
     result.push_back(light("rim", 1, rim, kBust - rim));
+    add_colliders(result);
     return result;
 }
 
@@ -220,7 +232,7 @@ Portrait make_portrait(const std::vector<Part>& parts) {
                          {"type", "perspective"},
                          {"perspective", {{"yfov", 0.44}, {"znear", 0.05}}}};
     Json gltf = {{"asset", {{"version", "2.0"}, {"generator", "vellus_make_assets"}}}};
-    gltf["extensionsUsed"] = {"KHR_lights_punctual", "VELLUS_hair"};
+    gltf["extensionsUsed"] = {"KHR_lights_punctual", "VELLUS_collider", "VELLUS_hair"};
     gltf["scene"] = 0;
     gltf["scenes"] =
         Json::array({{{"name", "portrait"},
