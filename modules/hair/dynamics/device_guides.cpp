@@ -1,7 +1,7 @@
 #include "modules/hair/dynamics/device_guides.h"
 
+#include <algorithm>
 #include <cassert>
-#include <cstring>
 
 namespace vellus::hair {
 
@@ -21,7 +21,7 @@ constexpr uint64_t aligned(uint64_t bytes) {
 
 template <class T>
 uint64_t put(std::byte* at, std::span<const T> values) {
-    std::memcpy(at, values.data(), values.size_bytes());
+    std::ranges::copy(std::as_bytes(values), at);
     return aligned(values.size_bytes());
 }
 
