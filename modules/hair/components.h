@@ -41,6 +41,8 @@ struct LibraryGroom {
     /// Points and first points of strands as on the device, for binding and dynamics.
     std::vector<glm::vec3> positions;
     std::vector<uint32_t> strand_begin;
+    /// Of cards: CardGroom::parameters.
+    std::vector<uint16_t> card_parameters;
     /// See StrandData::levels.
     std::vector<StrandLevel> levels;
     /// Length of all strands over the area they are seen on from the side, 1/metres: layers of hair

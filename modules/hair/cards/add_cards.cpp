@@ -1,5 +1,7 @@
 #include "modules/hair/cards/add_cards.h"
 
+#include <cmath>
+
 #include "engine/platform/log.h"
 #include "modules/hair/cards/build_cards.h"
 #include "modules/hair/components.h"
@@ -20,6 +22,7 @@ Result<uint32_t> add_cards(World& world, gpu::Device& device, const std::string&
                               .cards = std::move(*buffers),
                               .positions = cards.points,
                               .strand_begin = cards.card_begin,
+                              .card_parameters = cards.parameters,
                               .bounds = bounds_of(cards),
                               .outermost = outermost_points(cards.points),
                               .has_colors = !cards.atlas.color.empty()});
@@ -29,21 +32,24 @@ Result<uint32_t> add_cards(World& world, gpu::Device& device, const std::string&
 Result<uint32_t> add_built_cards(World& world, gpu::Device& device,
                                  const std::filesystem::path& path, const HairExtension& look) {
     const CardsChoice& choice = *look.cards;
+    // The look is in metres; the groom may be in centimetres that the transform scales.
+    const auto unit = static_cast<float>(std::cbrt(look.scale.x * look.scale.y * look.scale.z));
     const std::string name =
-        fmt::format("{} ({} cards, {} texels per metre, {} texels, widths {} {})",
+        fmt::format("{} ({} cards, {} texels per metre, {} texels, widths {} {}, unit {})",
                     strands_name(path, look.upright), choice.count, choice.texels_per_metre,
-                    choice.max_texels, look.width.root, look.width.tip_scale);
+                    choice.max_texels, look.width.root, look.width.tip_scale, unit);
     if (const auto known = find_groom(world, name)) return *known;
     auto loaded = load_strands(path, look.upright);
     if (!loaded) return loaded.error();
     StrandData& strands = loaded->strands;
     if (look.width.root > 0.0f) {
-        strands.width = look.width.root;
+        strands.width = look.width.root / unit;
         strands.point_width.clear();
     }
     auto built = build_cards(strands, {.cards = choice.count,
-                                       .texels_per_metre = choice.texels_per_metre,
+                                       .texels_per_metre = choice.texels_per_metre * unit,
                                        .max_texels = choice.max_texels,
+                                       .tolerance = CardBuildOptions{}.tolerance / unit,
                                        .tip_scale = look.width.tip_scale});
     if (!built) return Error{built.error().what, path.string(), built.error().remedy};
     log_info("{}: {}", path.filename().string(), to_text(built->report));

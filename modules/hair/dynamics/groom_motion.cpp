@@ -5,8 +5,8 @@
 #include <glm/gtc/packing.hpp>
 
 #include "engine/platform/jobs.h"
-#include "engine/platform/log.h"
 #include "modules/hair/binding/components.h"
+#include "modules/hair/dynamics/card_rows.h"
 
 namespace vellus::hair {
 
@@ -15,10 +15,27 @@ namespace {
 // Less than this, a hundredth of a millimetre at the end of 10 cm, counts as unbent.
 constexpr float kUnbent = 1e-4f;
 
-/// A strand's points where the guide is at rest: in its root's frame where bound, else as loaded.
-std::vector<glm::vec3> rest_points(const LibraryGroom& groom, const BoundRoots* bound,
-                                   uint32_t strand) {
+/// Strands, or the middle lines of cards, in columns.
+struct Lines {
+    std::vector<glm::vec3> points;
+    std::vector<uint32_t> begin;
+};
+
+Lines lines_of(const LibraryGroom& groom, const CardRows& rows) {
+    if (!groom.cards) return {groom.positions, groom.strand_begin};
+    Lines lines{{}, rows.card_begin};
+    for (uint32_t card = 0; card + 1 < rows.card_begin.size(); ++card) {
+        const auto line = rows.line(groom.positions, card);
+        lines.points.insert(lines.points.end(), line.begin(), line.end());
+    }
+    return lines;
+}
+
+/// A guide's points where it is at rest: in its root's frame where bound, else as loaded.
+std::vector<glm::vec3> rest_points(const LibraryGroom& groom, const CardRows& rows,
+                                   const BoundRoots* bound, uint32_t strand) {
     const auto& points = bound != nullptr ? bound->local : groom.positions;
+    if (groom.cards) return rows.line(points, strand);
     return {points.begin() + groom.strand_begin[strand],
             points.begin() + groom.strand_begin[strand + 1]};
 }
@@ -39,15 +56,26 @@ Result<void> upload(gpu::Device& device, std::span<const T> values, const char* 
     return {};
 }
 
-Result<void> make_buffers(gpu::Device& device, const LibraryGroom& groom,
+Result<void> upload_rows(gpu::Device& device, const CardRows& rows, GroomMotion& out) {
+    out.row_edge = rows.edge;
+    if (auto done = upload(device, std::span<const uint32_t>(rows.row_begin), "hair card rows",
+                           out.row_begin);
+        !done) {
+        return done;
+    }
+    return upload(device, std::span<const uint32_t>(rows.points), "hair card row points",
+                  out.row_points);
+}
+
+Result<void> make_buffers(gpu::Device& device, const std::vector<uint32_t>& begin,
                           const GuideSelection& chosen, GroomMotion& out) {
     if (auto done = upload(device, std::span<const StrandGuides>(chosen.follow),
                            "hair strand guides", out.follow);
         !done) {
         return done;
     }
-    if (auto done = upload(device, std::span<const uint32_t>(groom.strand_begin),
-                           "hair strand begins", out.strand_begin);
+    if (auto done = upload(device, std::span<const uint32_t>(begin), "hair strand begins",
+                           out.strand_begin);
         !done) {
         return done;
     }
@@ -70,23 +98,26 @@ Result<void> add_motion(World& world, gpu::Device& device, Entity hair, const Ha
     const Hair* const worn = world.get<Hair>(hair);
     assert(worn != nullptr);
     const LibraryGroom& groom = world.resource<HairLibrary>().grooms[worn->groom];
-    if (groom.cards) {
-        log_warning("{}: cards follow their roots; only strands move on their own", groom.name);
-        return {};
-    }
     const BoundRoots* const bound = bound_roots(world, world.get<HairBinding>(hair));
-    const size_t strands = groom.strand_begin.empty() ? 0 : groom.strand_begin.size() - 1;
+    const CardRows rows = groom.cards ? cut_rows(groom) : CardRows{};
+    const Lines all = lines_of(groom, rows);
+    const size_t strands = all.begin.empty() ? 0 : all.begin.size() - 1;
     const uint32_t count = guides == 0 ? default_guide_count(strands) : guides;
-    const GuideSelection chosen = select_guides(groom.positions, groom.strand_begin, count);
+    const GuideSelection chosen = select_guides(all.points, all.begin, count);
     std::vector<std::vector<glm::vec3>> lines;
     lines.reserve(chosen.guides.size());
-    for (const uint32_t strand : chosen.guides) lines.push_back(rest_points(groom, bound, strand));
+    for (const uint32_t strand : chosen.guides) {
+        lines.push_back(rest_points(groom, rows, bound, strand));
+    }
     auto made = std::make_unique<GroomMotion>(make_guides(lines));
     made->entity = hair;
     made->strands = chosen.guides;
-    made->spread = chosen.spread;
+    made->spread = chosen.spread + rows.half_width;
     made->roots.resize(chosen.guides.size());
-    if (auto done = make_buffers(device, groom, chosen, *made); !done) return done;
+    if (auto done = make_buffers(device, all.begin, chosen, *made); !done) return done;
+    if (groom.cards) {
+        if (auto done = upload_rows(device, rows, *made); !done) return done;
+    }
 
     remove_motion(world, hair);
     auto& list = world.resource<HairMotions>().list;

@@ -26,8 +26,11 @@ struct GroomMotion {
     std::vector<uint32_t> strands;  ///< which strand each guide is
     float spread = 0.0f;            ///< of GuideSelection
     gpu::Buffer follow;             ///< StrandGuides by strand
-    gpu::Buffer strand_begin;
-    gpu::Buffer turns;  ///< kTurnSlots times guide by guide, link by link: four signed 16 bit
+    gpu::Buffer strand_begin;       ///< or, of cards, of their rows:
+    gpu::Buffer row_begin;
+    gpu::Buffer row_points;
+    uint32_t row_edge = 0;  ///< CardRows::edge; 0: strands
+    gpu::Buffer turns;      ///< kTurnSlots times guide by guide, link by link: four signed 16 bit
     uint32_t slot = 0;
     uint32_t previous_slot = 0;
     bool bent = false;  ///< strands differ from where their roots carry them
@@ -52,8 +55,8 @@ struct HairMotions {
 };
 
 /// Lets the strands of a hair entity move: chooses its guides (0: one strand in 24) and gives it
-/// HairMotion and HairMoves, in place of those it has. Bind it first. Errors name the buffer that
-/// did not fit.
+/// HairMotion and HairMoves, in place of those it has. Bind it first. Of cards, the guides are
+/// lines along the middle of some. Errors name the buffer that did not fit.
 Result<void> add_motion(World& world, gpu::Device& device, Entity hair,
                         const HairMotion& motion = {}, uint32_t guides = 0);
 /// Strands move rigidly from now on; false where they did before.

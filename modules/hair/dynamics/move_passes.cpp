@@ -12,20 +12,67 @@ VkDeviceAddress turns_of(const GroomMotion& groom, uint32_t slot) {
                         : groom.turns.address() + slot * groom.turn_bytes();
 }
 
-MovePush move_push(const HairDeform& deform, GroomMotion& groom, uint64_t frame) {
+struct Turns {
+    VkDeviceAddress now;
+    VkDeviceAddress previous;
+};
+
+Turns turns_shown(GroomMotion& groom, uint64_t frame) {
     // Without turns of the frame before there was no motion of this kind either.
     const bool continues = groom.shown_frame + 1 == frame || groom.shown_frame == frame;
     const uint32_t previous = continues ? groom.previous_slot : groom.slot;
     groom.shown_frame = frame;
+    return {turns_of(groom, groom.slot), turns_of(groom, previous)};
+}
+
+MovePush move_push(const HairDeform& deform, const GroomMotion& groom, const Turns& turns) {
     return {.points = deform.points,
             .previous_points = deform.previous_points,
             .strand_begin = groom.strand_begin.address(),
             .parameters = deform.strands->parameters.address(),
             .follow = groom.follow.address(),
-            .turns = turns_of(groom, groom.slot),
-            .previous_turns = turns_of(groom, previous),
+            .turns = turns.now,
+            .previous_turns = turns.previous,
             .strand_count = deform.strands->strand_count,
             .links = groom.motion.guides().links};
+}
+
+MoveCardsPush cards_push(const HairDeform& deform, const GroomMotion& groom, const Turns& turns) {
+    return {.points = deform.points,
+            .previous_points = deform.previous_points,
+            .card_begin = groom.strand_begin.address(),
+            .row_begin = groom.row_begin.address(),
+            .row_points = groom.row_points.address(),
+            .parameters = deform.strands->parameters.address(),
+            .follow = groom.follow.address(),
+            .turns = turns.now,
+            .previous_turns = turns.previous,
+            .card_count = deform.strands->strand_count,
+            .links = groom.motion.guides().links,
+            .edge = groom.row_edge};
+}
+
+void add_push(const HairDeform& deform, GroomMotion& groom, uint64_t frame,
+              HairMotionPasses& passes) {
+    const Turns turns = turns_shown(groom, frame);
+    if (groom.row_edge == 0) {
+        passes.pushes.push_back(move_push(deform, groom, turns));
+    } else {
+        passes.card_pushes.push_back(cards_push(deform, groom, turns));
+    }
+}
+
+bool make_pipelines(HairMotionPasses& passes, scene::RenderFrame& frame) {
+    if (!passes.pushes.empty() && !frame.compute(passes.move, [] {
+            return gpu::ComputeInfo{.shader = "hair/dynamics/move.comp.glsl",
+                                    .push_bytes = sizeof(MovePush)};
+        })) {
+        return false;
+    }
+    return passes.card_pushes.empty() || frame.compute(passes.move_cards, [] {
+        return gpu::ComputeInfo{.shader = "hair/dynamics/move_cards.comp.glsl",
+                                .push_bytes = sizeof(MoveCardsPush)};
+    });
 }
 
 /// The first time, guides go to the device as they are here.
@@ -78,6 +125,7 @@ void describe_hair_motion(Query<const HairMotion, const HairMoves> moving, Res<H
                           Res<HairMotions> motions, Res<HairMotionPasses> passes,
                           Res<const scene::FixedStep> step, Res<scene::RenderFrame> frame) {
     passes->pushes.clear();
+    passes->card_pushes.clear();
     passes->solves.clear();
     passes->states.clear();
     for (const HairDeform& deform : hair->deforms) {
@@ -86,16 +134,11 @@ void describe_hair_motion(Query<const HairMotion, const HairMoves> moving, Res<H
         GroomMotion& groom = *motions->list[std::get<0>(*found).slot];
         if (groom.solve && !add_solve(groom, *frame, *passes)) return;
         if (groom.device) passes->states.push_back(import_state(*groom.device, *frame));
-        passes->pushes.push_back(move_push(deform, groom, step->frame));
+        add_push(deform, groom, step->frame, *passes);
     }
-    if (passes->pushes.empty() || !hair->deformed) return;
-    if (!frame->compute(passes->move, [] {
-            return gpu::ComputeInfo{.shader = "hair/dynamics/move.comp.glsl",
-                                    .push_bytes = sizeof(MovePush)};
-        })) {
-        return;
-    }
-    passes->dispatches += passes->pushes.size() + passes->solves.size();
+    const size_t moved = passes->pushes.size() + passes->card_pushes.size();
+    if (moved == 0 || !hair->deformed || !make_pipelines(*passes, *frame)) return;
+    passes->dispatches += moved + passes->solves.size();
     if (!passes->solves.empty() && !describe_solve(*passes, *frame)) return;
     auto pass = frame->graph.add_pass("hair/move", graph::PassKind::kCompute);
     for (const graph::BufferHandle state : passes->states) {
@@ -103,12 +146,18 @@ void describe_hair_motion(Query<const HairMotion, const HairMoves> moving, Res<H
     }
     hair->deformed = pass.write(hair->deformed, graph::Access::kStorageReadWrite);
     pass.execute([pushes = std::span<const MovePush>(passes->pushes),
-                  pipeline = passes->move](graph::PassContext& context) {
+                  cards = std::span<const MoveCardsPush>(passes->card_pushes), move = passes->move,
+                  move_cards = passes->move_cards](graph::PassContext& context) {
         gpu::CommandBuffer& commands = context.commands();
-        commands.bind(*pipeline);
+        if (!pushes.empty()) commands.bind(*move);
         for (const MovePush& push : pushes) {
             commands.push(push);
             commands.dispatch_threads(push.strand_count, kStrandGroupSize);
+        }
+        if (!cards.empty()) commands.bind(*move_cards);
+        for (const MoveCardsPush& push : cards) {
+            commands.push(push);
+            commands.dispatch_threads(push.card_count, kStrandGroupSize);
         }
     });
 }

@@ -1,18 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/portable.glsl"
-#include "hair/geometry/strands.glsl"
+#include "hair/dynamics/follow.glsl"
 
 // Bends strands that their roots have carried, this frame and the last, as their guides bend. One thread
 // a strand.
 layout(local_size_x = 64) in;
-struct StrandGuides {
-    uvec3 guides;
-    vec3 weights;
-    vec3 reach;
-};
-layout(buffer_reference, scalar) readonly buffer Follow { StrandGuides at[]; };
-layout(buffer_reference, scalar) buffer Points { vec3 at[]; };
 layout(push_constant, scalar) uniform Push {
     Points points;
     Points previous_points;
@@ -25,14 +18,7 @@ layout(push_constant, scalar) uniform Push {
     uint links;
 };
 
-bool before = false;
-
-vec4 guide_turn(uint guide, uint link) {
-    uint i = guide * links + link;
-    uvec2 packed = before ? previous_turns.at[i] : turns.at[i];
-    return vec4(unpackSnorm2x16(packed.x), unpackSnorm2x16(packed.y));
-}
-
+#include "hair/dynamics/guide_turn.glsl"
 #include "hair/dynamics/transfer.glsl"
 
 void bend(Points points_of, uint first, uint last, StrandGuides guides) {

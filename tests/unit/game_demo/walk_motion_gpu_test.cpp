@@ -1,6 +1,8 @@
 #include "game_demo/src/content.h"
 #include "game_demo/src/renderer.h"
+#include "modules/hair/binding/bind_hair.h"
 #include "modules/hair/binding/deform_passes.h"
+#include "modules/hair/cards/add_cards.h"
 #include "modules/hair/dynamics/groom_motion.h"
 #include "modules/hair/geometry/hair_frame.h"
 #include "modules/scene/components.h"
@@ -27,6 +29,22 @@ class WalkMotion : public test::GpuTest {
                 person_ = entity;
             });
         ASSERT_TRUE(person_ != kNoEntity) << "the scene asks for motion";
+    }
+    /// The same hair as cards built from its strands.
+    void wear_cards() {
+        hair::HairExtension look;
+        look.upright = false;
+        look.scale = glm::dvec3(0.01);
+        look.width = *world().get<hair::HairWidth>(person_);
+        look.cards = hair::CardsChoice{.count = 80, .max_texels = 1U << 18U};
+        const auto cards = hair::add_built_cards(
+            world(), device(), VELLUS_SOURCE_DIR "/assets/grooms/walk.hair", look);
+        ASSERT_TRUE(cards) << cards.error().message();
+        world().get<hair::Hair>(person_)->groom = *cards;
+        const Entity mesh = world().get<hair::HairBinding>(person_)->mesh;
+        ASSERT_TRUE(hair::bind_hair(world(), device(), person_, mesh));
+        const hair::HairMotion motion = *world().get<hair::HairMotion>(person_);
+        ASSERT_TRUE(hair::add_motion(world(), device(), person_, motion));
     }
     World& world() { return renderer_->world(); }
     const hair::LibraryGroom& groom() {
@@ -118,6 +136,51 @@ TEST_F(WalkMotion, StrandsGoWhereTheirGuidesWereSolvedAndHangBehindTheWalker) {
     EXPECT_GT(swung, 0.005);
     EXPECT_LT(swung, 0.06) << "hair of thirty centimetres, a stroll";
     EXPECT_LT(std::abs(risen), 0.03);
+}
+
+TEST_F(WalkMotion, CardsFollowTheirGuidesOnTheSkin) {
+    wear_cards();
+    std::vector<glm::dvec3> points;
+    for (int frame = 0; frame < 40; ++frame) points = draw();
+    ASSERT_FALSE(points.empty());
+    const auto& rest = groom().positions;
+    const auto& begin = groom().strand_begin;
+    const hair::GuideSet& guides = motion().motion.guides();
+    ASSERT_LT(guides.count, begin.size()) << "some cards follow others' guides";
+    const auto middle = [](const auto& at, uint32_t row) {
+        return 0.5 * glm::dvec3(at[row] + at[row + 1]);
+    };
+    double swung = 0.0;
+    for (uint32_t g = 0; g < guides.count; ++g) {
+        glm::vec3 tip(0.0f);
+        hair::visit_guide_points(guides, motion().motion.state(), g,
+                                 [&](const glm::vec3& point) { tip = point; });
+        const hair::RootPose& root = motion().roots[g];
+        const glm::dvec3 solved = root.place + root.turn * (scale() * glm::dvec3(tip));
+        // Links and rows cut the line at different places, up to a centimetre apart.
+        EXPECT_LT(glm::distance(middle(points, begin[motion().strands[g] + 1] - 3), solved), 0.01);
+    }
+    for (size_t card = 0; card + 1 < begin.size(); ++card) {
+        for (uint32_t row = begin[card]; row < begin[card + 1]; row += 3) {
+            // Rows turn as one; the atlas stays as wide and as deep as it was.
+            for (const uint32_t k : {1U, 2U}) {
+                const double was = scale() * glm::distance(rest[row], rest[row + k]);
+                EXPECT_NEAR(glm::distance(points[row], points[row + k]), was, 1e-5);
+            }
+            if (row == begin[card]) continue;
+            const double was = scale() * glm::distance(middle(rest, row), middle(rest, row - 3));
+            const double now = glm::distance(middle(points, row), middle(points, row - 3));
+            EXPECT_NEAR(now, was, 1e-5);
+        }
+        const auto across = [&](const auto& at, uint32_t row) {
+            return glm::normalize(glm::dvec3(at[row + 1] - at[row]));
+        };
+        const uint32_t first = begin[card];
+        const uint32_t last = begin[card + 1] - 3;
+        swung = std::max(swung, std::abs(glm::dot(across(points, first), across(points, last)) -
+                                         glm::dot(across(rest, first), across(rest, last))));
+    }
+    EXPECT_GT(swung, 0.01) << "tips turn against their roots";
 }
 
 }  // namespace
