@@ -41,9 +41,14 @@ Result<uint32_t> CpuHost::add_groom(const std::filesystem::path& path,
     }
     auto loaded = hair::load_strands(path, look.upright);
     if (!loaded) return loaded.error();
+    return add_strands(loaded->name, loaded->strands, loaded->report);
+}
+
+uint32_t CpuHost::add_strands(const std::string& name, const hair::StrandData& strands,
+                              const hair::GroomReport& report) {
     auto& grooms = world_.resource<hair::HairLibrary>().grooms;
-    grooms.push_back(hair::describe_groom(loaded->name, loaded->strands, loaded->report));
-    strands_.push_back(std::move(loaded->strands));
+    grooms.push_back(hair::describe_groom(name, strands, report));
+    strands_.push_back(strands);
     return static_cast<uint32_t>(grooms.size() - 1);
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "game_demo/src/content_host.h"
+#include "modules/hair/groom/groom_report.h"
 #include "modules/hair/groom/strand_data.h"
 
 namespace vellus::demo {
@@ -19,6 +20,9 @@ class CpuHost final : public ContentHost {
     Result<void> settle() override;
     Result<uint32_t> add_groom(const std::filesystem::path& path,
                                const hair::HairExtension& look) override;
+    /// Strands that are already in node space and metres: their index in the HairLibrary.
+    uint32_t add_strands(const std::string& name, const hair::StrandData& strands,
+                         const hair::GroomReport& report);
     Result<void> bind_hair(Entity hair, Entity mesh) override;
     Result<void> add_meshes() override { return {}; }
     Result<void> set_environment(const light::EnvironmentImage& image) override;
