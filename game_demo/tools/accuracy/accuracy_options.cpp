@@ -51,10 +51,10 @@ void add_size_options(CLI::App& app, AccuracyOptions& options) {
     const auto number = [&](const char* name, uint32_t& slot, uint32_t high, const char* help) {
         app.add_option(name, slot, help)->check(CLI::Range(1u, high))->type_name("N");
     };
-    number("--size", options.size, 2048, "Pixels along a picture's side (256; quick: 160)");
-    number("--frames", options.frames, 1024, "Frames that count (32; quick: 16)");
-    number("--warmup", options.warm_up, 1024, "Frames before them, for TAA to settle (48; quick: 32)");
-    number("--spp", options.samples, 65536, "Path tracer's samples a pixel (256; quick: 64)");
+    number("--size", options.size, 2048, "Pixels along a picture's side (256; quick: 128)");
+    number("--frames", options.frames, 1024, "Frames that count (32; quick: 8)");
+    number("--warmup", options.warm_up, 1024, "Frames for TAA to settle in, where opacity is measured (48; quick: 32)");
+    number("--spp", options.samples, 65536, "Path tracer's samples a pixel (256; quick: 48)");
     number("--strands", options.strands, 100'000, "Strands of each groom (8000; quick: 3000)");
     app.add_option("--seed", options.seed, "Seed of grooms and references")
         ->type_name("S")

@@ -122,7 +122,7 @@ std::string Job::id() const {
 JobSizes job_sizes(const AccuracyOptions& options) {
     JobSizes sizes;
     if (options.quick) {
-        sizes = {.size = 160, .frames = 16, .warm_up = 32, .samples = 64, .strands = 3000};
+        sizes = {.size = 128, .frames = 8, .warm_up = 32, .samples = 48, .strands = 3000};
     }
     if (options.size != 0) sizes.size = options.size;
     if (options.frames != 0) sizes.frames = options.frames;

@@ -85,7 +85,7 @@ FrameRun frame_run(const Job& job, const JobSizes& sizes) {
                  .frames = sizes.frames,
                  .seed = sizes.seed};
     // Where the history is no part of what is measured, the mean of the frames takes its place.
-    if (job.axis != "opacity" && job.axis != kFrameAxis) {
+    if (job.axis != "opacity") {
         run.blend = 1.0f;
         run.warm_up = kShortWarmUp;
     }

@@ -104,7 +104,7 @@ function chart(all) {
   const width = Math.max(280, $("chart").clientWidth - 18), height = Math.max(260, Math.min(420, 0.55 * width));
   const left = 56, right = 14, top = 12, bottom = 44;
   const svg = drawn("svg", { viewBox: `0 0 ${width} ${height}`, role: "group" });
-  const x = scale(all.map((p) => p.x), width - left - right, false), y = scale(all.map((p) => p.error), height - top - bottom, true);
+  const x = scale(all.flatMap((p) => [p.x, p.low, p.high]), width - left - right, false), y = scale(all.map((p) => p.error), height - top - bottom, true);
   const px = (v) => left + x.at(v), py = (v) => height - bottom - y.at(v);
   const text = (at, words, more) => drawn("text", { x: at[0], y: at[1], ...more }, words);
   for (const t of y.ticks) {
@@ -175,7 +175,7 @@ function detail(all) {
   const figures = element("p", { class: "figures" });
   const say = (name, value) => figures.append(element("b", {}, value), ` ${name}   `);
   say(data.errors[row.axis], percent(row.error));
-  if (Number.isFinite(row.measures.reference_noise)) say("of that at most noise of the reference", percent(row.measures.reference_noise));
+  if (Number.isFinite(row.measures.reference_noise)) say("to be expected from the reference's own noise", percent(row.measures.reference_noise));
   say("FLIP", fixed(row.measures.flip, 3));
   say("bias", percent(row.measures.bias));
   say("ms, axis", `${milliseconds(row.axis_ms.median)} (${milliseconds(row.axis_ms.p10)}–${milliseconds(row.axis_ms.p90)})`);
