@@ -127,8 +127,8 @@ std::optional<Combination> best_within(const FrameModel& model, double budget_ms
     for (Combination& each : combinations(model)) {
         if (!cheapest || each.ms < cheapest->ms) cheapest = each;
         if (each.ms > budget_ms) continue;
-        const bool better = !best || each.error < best->error ||
-                            (each.error == best->error && each.ms < best->ms);
+        const bool better =
+            !best || each.error < best->error || (each.error == best->error && each.ms < best->ms);
         if (better) best = std::move(each);
     }
     return best ? best : cheapest;

@@ -9,8 +9,8 @@
 namespace vellus::demo {
 
 /// Puts "NAME=VALUE" into effect; empty changes nothing. `detail` (share of the strands),
-/// `roughness` and `falloff` (1/m, behind the closest hair) belong to one hair entity, `map` (texels
-/// along a shadow map) and `taa` (on, off) to the world. An Error lists them.
+/// `roughness` and `falloff` (1/m, behind the closest hair) belong to one hair entity, `map`
+/// (texels along a shadow map) and `taa` (on, off) to the world. An Error lists them.
 Result<void> apply_setting(World& world, Entity hair, std::string_view setting);
 
 /// Technique and setting of one axis for one hair entity.

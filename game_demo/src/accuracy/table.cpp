@@ -31,10 +31,15 @@ Spread spread_from(const Json& json) {
 
 AccuracyRow row_from(const Json& json) {
     AccuracyRow row;
-    for (auto [name, slot] :
-         {std::pair{"id", &row.id}, {"axis", &row.axis}, {"technique", &row.technique},
-          {"setting", &row.setting}, {"groom", &row.groom}, {"colour", &row.colour},
-          {"light", &row.light}, {"device", &row.device}, {"run", &row.run}}) {
+    for (auto [name, slot] : {std::pair{"id", &row.id},
+                              {"axis", &row.axis},
+                              {"technique", &row.technique},
+                              {"setting", &row.setting},
+                              {"groom", &row.groom},
+                              {"colour", &row.colour},
+                              {"light", &row.light},
+                              {"device", &row.device},
+                              {"run", &row.run}}) {
         *slot = json.at(name).get<std::string>();
     }
     row.reference = json.at("reference");
@@ -104,10 +109,10 @@ nlohmann::ordered_json row_json(const AccuracyRow& row) {
 std::string to_json(const AccuracyTable& table) {
     Json rows = Json::array();
     for (const AccuracyRow& row : table.rows) rows.push_back(row_json(row));
-    const Json json = {{"version", kVersion},       {"device", table.device},
-                       {"driver", table.driver},    {"command", table.command},
-                       {"date", table.date},        {"seed", table.seed},
-                       {"size", table.size},        {"rows", rows}};
+    const Json json = {{"version", kVersion},    {"device", table.device},
+                       {"driver", table.driver}, {"command", table.command},
+                       {"date", table.date},     {"seed", table.seed},
+                       {"size", table.size},     {"rows", rows}};
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

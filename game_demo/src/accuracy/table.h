@@ -35,12 +35,12 @@ struct AccuracyRow {
     std::string colour;
     std::string light;
     std::string device;
-    std::string run;        ///< all other options that decide the result
-    bool reference = false; ///< what the others of its axis are compared with
-    double error = 0.0;     ///< what charts show, see error_name()
+    std::string run;                         ///< all other options that decide the result
+    bool reference = false;                  ///< what the others of its axis are compared with
+    double error = 0.0;                      ///< what charts show, see error_name()
     std::map<std::string, double> measures;  ///< further figures by name
-    Spread axis_ms;   ///< device time of the passes of this axis
-    Spread frame_ms;  ///< device time of the whole frame
+    Spread axis_ms;                          ///< device time of the passes of this axis
+    Spread frame_ms;                         ///< device time of the whole frame
     uint64_t transient_bytes = 0;
     uint64_t persistent_bytes = 0;
     uint32_t frames = 0;  ///< counted

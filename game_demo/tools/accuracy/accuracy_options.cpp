@@ -24,9 +24,10 @@ void add_list(CLI::App& app, const char* name, std::vector<std::string>& slot,
 }
 
 void add_choice_options(CLI::App& app, AccuracyOptions& options) {
-    app.add_flag("--quick", options.quick,
-                 "A small run of a few minutes: fewer grooms, colours, lights and settings, smaller "
-                 "pictures");
+    app.add_flag(
+        "--quick", options.quick,
+        "A small run of a few minutes: fewer grooms, colours, lights and settings, smaller "
+        "pictures");
     add_list(app, "--axes", options.axes, measured_axes(), "Only these axes");
     add_list(app, "--grooms", options.grooms, strings(kGrooms), "Only these grooms");
     add_list(app, "--colours", options.colours, strings(kColours), "Only these hair colours");
@@ -39,7 +40,8 @@ void add_choice_options(CLI::App& app, AccuracyOptions& options) {
            [&](const std::string& text) {
                const auto shard = read_shard(text);
                if (!shard) {
-                   throw CLI::ValidationError("--shard", "'" + text + "' is not I/N with I below N");
+                   throw CLI::ValidationError("--shard",
+                                              "'" + text + "' is not I/N with I below N");
                }
                options.shard = *shard;
            },
@@ -53,7 +55,8 @@ void add_size_options(CLI::App& app, AccuracyOptions& options) {
     };
     number("--size", options.size, 2048, "Pixels along a picture's side (256; quick: 128)");
     number("--frames", options.frames, 1024, "Frames that count (32; quick: 8)");
-    number("--warmup", options.warm_up, 1024, "Frames for TAA to settle in, where opacity is measured (48; quick: 32)");
+    number("--warmup", options.warm_up, 1024,
+           "Frames for TAA to settle in, where opacity is measured (48; quick: 32)");
     number("--spp", options.samples, 65536, "Path tracer's samples a pixel (256; quick: 48)");
     number("--strands", options.strands, 100'000, "Strands of each groom (8000; quick: 3000)");
     app.add_option("--seed", options.seed, "Seed of grooms and references")
@@ -102,7 +105,8 @@ ParsedAccuracyOptions parse_accuracy_options(int argc, const char* const* argv, 
                    "least error that a frame of MS milliseconds has time for, and measure it")
         ->check(CLI::PositiveNumber)
         ->type_name("MS");
-    parsed.exit_status = parse_or_tell(app, argc, argv, [] {}, out, err);
+    parsed.exit_status = parse_or_tell(
+        app, argc, argv, [] {}, out, err);
     options.command = "vellus_accuracy";
     for (int i = 1; i < argc; ++i) options.command.append(" ").append(argv[i]);
     return parsed;

@@ -192,8 +192,8 @@ Features features(const Colours& colours, glm::uvec2 size, double pixels_per_deg
 
 /// Colour differences compressed so that most of [0, 1] is left to small ones (equation 11).
 double colour_error(const glm::dvec3& a, const glm::dvec3& b) {
-    static const double kLargest = std::pow(
-        hyab(to_hunt_lab({0.0, 1.0, 0.0}), to_hunt_lab({0.0, 0.0, 1.0})), kColourExponent);
+    static const double kLargest =
+        std::pow(hyab(to_hunt_lab({0.0, 1.0, 0.0}), to_hunt_lab({0.0, 0.0, 1.0})), kColourExponent);
     const double knee = kColourKnee * kLargest;
     const double error = std::pow(hyab(a, b), kColourExponent);
     if (error < knee) return kKneeError / knee * error;

@@ -18,8 +18,8 @@ namespace {
 
 constexpr const char* kReadback = "accuracy/readback";
 constexpr const char* kPicture = "demo/picture";
-constexpr uint64_t kPixelBytes = 8;         // of the readback
-constexpr uint64_t kPictureBytes = 4;       // of the picture nobody looks at
+constexpr uint64_t kPixelBytes = 8;    // of the readback
+constexpr uint64_t kPictureBytes = 4;  // of the picture nobody looks at
 
 /// Copies the frame's linear picture, as the display would get it.
 void describe_copy(scene::RenderFrame& frame, gpu::Buffer& buffer) {
@@ -103,8 +103,8 @@ Result<DrawnFrames> draw_frames(gpu::Device& device, const StudioGroom& groom,
     const graph::MemoryReport& memory = (*renderer)->report().memory;
     drawn.transient_bytes = memory.transient_bytes;
     drawn.persistent_bytes =
-        memory.persistent_bytes - std::min(memory.persistent_bytes,
-                                           pixels * (kPixelBytes + kPictureBytes));
+        memory.persistent_bytes -
+        std::min(memory.persistent_bytes, pixels * (kPixelBytes + kPictureBytes));
     return drawn;
 }
 

@@ -75,7 +75,8 @@ std::vector<Variant> variants_of_frame(bool quick) {
             if (quick && axis == "opacity" && setting == "taa=off" && technique != usual) continue;
             variants.emplace_back(fmt::format("{}={}", axis, technique), setting);
         }
-        if (axis == "opacity") variants.emplace_back(fmt::format("{}={}", axis, usual), "detail=0.25");
+        if (axis == "opacity")
+            variants.emplace_back(fmt::format("{}={}", axis, usual), "detail=0.25");
     }
     return variants;
 }
@@ -143,7 +144,8 @@ std::vector<Job> all_jobs(const AccuracyOptions& options) {
     for (const std::string& axis : measured_axes()) {
         if (wanted(options.axes, axis)) add_axis(options, axis, jobs);
     }
-    std::ranges::stable_sort(jobs, {}, &Job::subject);
+    std::ranges::stable_sort(jobs,
+                             [](const Job& a, const Job& b) { return a.subject < b.subject; });
     return jobs;
 }
 

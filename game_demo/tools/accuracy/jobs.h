@@ -1,9 +1,9 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "game_demo/tools/accuracy/accuracy_options.h"
@@ -25,7 +25,10 @@ struct Subject {
     std::string colour;
     std::string light;
 
-    auto operator<=>(const Subject&) const = default;
+    bool operator==(const Subject&) const = default;
+    bool operator<(const Subject& other) const {
+        return std::tie(groom, colour, light) < std::tie(other.groom, other.colour, other.light);
+    }
 };
 
 /// One row to be measured; independent of all others.

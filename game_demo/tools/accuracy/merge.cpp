@@ -17,12 +17,13 @@ namespace fs = std::filesystem;
 Result<void> copy_results(const fs::path& from, const fs::path& to) {
     for (const char* folder : {"jobs", "references"}) {
         std::error_code code;
-        if (!fs::is_directory(from / folder, code)) continue;
         fs::create_directories(to / folder, code);
-        fs::copy(from / folder, to / folder, fs::copy_options::overwrite_existing, code);
-        if (code) {
-            return Error{"cannot copy to " + (to / folder).string() + ": " + code.message(),
-                         (from / folder).string(), "make room, or give another folder with --out"};
+        for (const auto& entry : fs::directory_iterator(from / folder, code)) {
+            fs::copy_file(entry.path(), to / folder / entry.path().filename(),
+                          fs::copy_options::overwrite_existing, code);
+            if (!code) continue;
+            return Error{"cannot be copied: " + code.message(), entry.path().string(),
+                         "make room, or give another folder with --out"};
         }
     }
     return {};
@@ -40,8 +41,7 @@ void sort_rows(AccuracyTable& table) {
     const auto same = [](const AccuracyRow& a, const AccuracyRow& b) {
         return a.id == b.id && a.device == b.device;
     };
-    const auto rest = std::ranges::unique(table.rows, same);
-    table.rows.erase(rest.begin(), rest.end());
+    table.rows.erase(std::unique(table.rows.begin(), table.rows.end(), same), table.rows.end());
 }
 
 AccuracyTable join(std::vector<AccuracyTable> tables) {

@@ -66,8 +66,8 @@ asset::Image heat_map(std::span<const float> errors, glm::uvec2 size) {
     for (const float error : errors) {
         const float at = std::clamp(error, 0.0f, 1.0f) * (kMagma.size() - 1);
         const auto low = std::min(static_cast<size_t>(at), kMagma.size() - 2);
-        shown.push_back(
-            glm::mix(kMagma[low], kMagma[low + 1], at - static_cast<float>(low)) / 255.0f);
+        shown.push_back(glm::mix(kMagma[low], kMagma[low + 1], at - static_cast<float>(low)) /
+                        255.0f);
     }
     return to_image(shown, size);
 }

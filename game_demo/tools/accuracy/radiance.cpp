@@ -31,8 +31,8 @@ std::array<double, 2> block_totals(const Radiance& picture, const Reference& ref
          })) {
         totals[0] += of(c);
     }
-    for (const glm::dvec3& c : block_sums(picture.size, reference.block,
-                                          [&](size_t i) { return weighted(i, b[i]); })) {
+    for (const glm::dvec3& c :
+         block_sums(picture.size, reference.block, [&](size_t i) { return weighted(i, b[i]); })) {
         totals[1] += of(c);
     }
     return totals;

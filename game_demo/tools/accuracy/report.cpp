@@ -26,7 +26,8 @@ std::string base64(std::span<const std::byte> bytes) {
     for (size_t i = 0; i < bytes.size(); i += 3) {
         uint32_t word = 0;
         for (size_t k = 0; k < 3; ++k) {
-            word = word << 8U | (i + k < bytes.size() ? std::to_integer<uint32_t>(bytes[i + k]) : 0U);
+            word =
+                word << 8U | (i + k < bytes.size() ? std::to_integer<uint32_t>(bytes[i + k]) : 0U);
         }
         for (size_t k = 0; k < 4; ++k) {
             const bool padding = i + k > bytes.size();
@@ -47,7 +48,8 @@ std::string data_uri(const fs::path& file) {
 /// Pictures by the name rows give them, each once.
 Json pictures_of(const AccuracyTable& table, const fs::path& folder) {
     std::set<std::string> files;
-    for (const AccuracyRow& row : table.rows) files.insert(row.pictures.begin(), row.pictures.end());
+    for (const AccuracyRow& row : table.rows)
+        files.insert(row.pictures.begin(), row.pictures.end());
     Json pictures = Json::object();
     for (const std::string& file : files) {
         const std::string uri = file.empty() ? "" : data_uri(folder / file);
@@ -78,8 +80,9 @@ std::string to_csv(const AccuracyTable& table) {
     }
     std::string text = "axis,technique,setting,groom,colour,light,error";
     for (const std::string& name : measures) text += "," + name;
-    text += ",axis_ms,axis_ms_p10,axis_ms_p90,frame_ms,frame_ms_p10,frame_ms_p90,transient_bytes,"
-            "persistent_bytes,frames,device\n";
+    text +=
+        ",axis_ms,axis_ms_p10,axis_ms_p90,frame_ms,frame_ms_p10,frame_ms_p90,transient_bytes,"
+        "persistent_bytes,frames,device\n";
     for (const AccuracyRow& row : table.rows) {
         text += fmt::format("{},{},{},{},{},{},{:.6g}", row.axis, csv_field(row.technique),
                             csv_field(row.setting), row.groom, row.colour, row.light, row.error);

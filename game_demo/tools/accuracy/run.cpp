@@ -73,8 +73,8 @@ Result<void> measure_jobs(Measure& measure, const std::vector<Job>& jobs, size_t
         if (stop_wished) return {};
         auto row = measure.run(job);
         if (stop_wished && !row) return {};
-        if (!row) return Error{row.error().what, job.id() + " " + row.error().where,
-                               row.error().remedy};
+        if (!row)
+            return Error{row.error().what, job.id() + " " + row.error().where, row.error().remedy};
         rows.push_back(std::move(*row));
         progress.update(static_cast<uint32_t>(rows.size()));
     }
@@ -129,7 +129,8 @@ Result<void> measure_all(const AccuracyOptions& options) {
                         .rows = {}};
     const auto jobs = jobs_of_shard(all_jobs(options), options.shard);
     const auto left = left_to_do(measure, jobs, table.rows);
-    if (!table.rows.empty()) log_info("{} of {} jobs are done already", table.rows.size(), jobs.size());
+    if (!table.rows.empty())
+        log_info("{} of {} jobs are done already", table.rows.size(), jobs.size());
     auto measured = measure_jobs(measure, left, table.rows.size(), table.rows);
     // What is there is kept, whatever ended the run.
     sort_rows(table);

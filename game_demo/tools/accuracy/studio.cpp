@@ -41,8 +41,7 @@ std::shared_ptr<const asset::SceneAsset> ball_asset(const hair::GrowSurface& bal
     primitive.material = 0;
     auto scene = std::make_shared<asset::SceneAsset>();
     scene->meshes = {{"ball", {primitive}, {}}};
-    scene->materials = {
-        {.name = "skin", .base_color = kSkin, .metallic = 0.0f, .roughness = 0.6f}};
+    scene->materials = {{.name = "skin", .base_color = kSkin, .metallic = 0.0f, .roughness = 0.6f}};
     scene->nodes = {{.name = "ball", .mesh = 0}};
     scene->roots = {0};
     return scene;

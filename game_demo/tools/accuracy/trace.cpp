@@ -51,7 +51,8 @@ Reference reference_of(const tracer::Film& film) {
 /// A ray of the camera through a random point of a pixel, as PathTracer::sample has it.
 tracer::Ray camera_ray(const tracer::Camera& camera, glm::uvec2 at, uint32_t size,
                        tracer::Random& random) {
-    const glm::dvec2 ndc = 2.0 * (glm::dvec2(at) + random.unit2()) / static_cast<double>(size) - 1.0;
+    const glm::dvec2 ndc =
+        2.0 * (glm::dvec2(at) + random.unit2()) / static_cast<double>(size) - 1.0;
     const glm::dvec3 direction = camera.axes * glm::dvec3(ndc.x * camera.tan_half_fov.x,
                                                           -ndc.y * camera.tan_half_fov.y, -1.0);
     const double length = glm::length(direction);

@@ -15,7 +15,8 @@ Result<hair::tracer::Scene> trace_scene(const StudioGroom& groom, const StudioLo
 /// Side of the blocks that path traced pictures are compared by.
 constexpr uint32_t kTracedBlock = 4;
 
-/// Path traced before black; weights are shares of hair; pixels without hair get few samples. Ends with an Error once `stop` is set.
+/// Path traced before black; weights are shares of hair; pixels without hair get few samples. Ends
+/// with an Error once `stop` is set.
 Result<Reference> path_traced(hair::tracer::Scene scene, uint32_t size, uint32_t samples,
                               uint64_t seed, const std::atomic<bool>& stop);
 

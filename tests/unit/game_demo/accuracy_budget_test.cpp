@@ -1,0 +1,127 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "engine/platform/files.h"
+#include "game_demo/src/accuracy/budget.h"
+#include "tests/support/own_folder.h"
+
+namespace vellus::demo {
+namespace {
+
+AccuracyRow frame(const std::string& technique, const std::string& setting, double ms, double error,
+                  const std::string& groom = "curly", const std::string& colour = "brown") {
+    AccuracyRow row;
+    row.id = technique + setting + groom + colour;
+    row.axis = kFrameAxis;
+    row.technique = technique;
+    row.setting = setting;
+    row.groom = groom;
+    row.colour = colour;
+    row.error = error;
+    row.frame_ms = {ms, ms - 1, ms + 1};
+    return row;
+}
+
+/// Defaults 20 ms and 50 %; cheaper and worse, dearer and better.
+AccuracyTable table() {
+    AccuracyTable all;
+    all.rows = {frame(kDefault, "", 20, 0.50),
+                frame("shadow=none", "", 12, 0.90),
+                frame("multiple=dual", "", 23, 0.20),
+                frame("multiple=none", "", 19, 0.35),
+                frame("opacity=dither", "detail=0.5", 15, 0.55),
+                frame(kDefault, "", 40, 0.10, "fur", "white")};
+    return all;
+}
+
+bool chose(const Combination& combination, const AxisChoice& choice) {
+    return std::ranges::find(combination.choices, choice) != combination.choices.end();
+}
+
+TEST(AccuracyBudget, EffectsAreDifferencesToTheDefaultsAndAddUp) {
+    const FrameModel model = frame_model(table(), "curly", "brown");
+    EXPECT_DOUBLE_EQ(model.ms, 20);
+    EXPECT_DOUBLE_EQ(model.error, 0.5);
+    ASSERT_EQ(model.effects.size(), 4u);
+    const Combination both =
+        predict(model, {{"multiple", "dual", ""}, {"opacity", "dither", "detail=0.5"}});
+    EXPECT_NEAR(both.ms, 20 + 3 - 5, 1e-12);
+    EXPECT_NEAR(both.error, 0.5 - 0.3 + 0.05, 1e-12);
+}
+
+TEST(AccuracyBudget, PicksTheLeastErrorThatFits) {
+    const FrameModel model = frame_model(table(), "curly", "brown");
+    const auto roomy = best_within(model, 100);
+    ASSERT_TRUE(roomy);
+    EXPECT_TRUE(chose(*roomy, {"multiple", "dual", ""}));
+    EXPECT_NEAR(roomy->ms, 23, 1e-12);
+    EXPECT_NEAR(roomy->error, 0.2, 1e-12);
+    // 19 ms: dual is still worth half the strands.
+    const auto middle = best_within(model, 19);
+    EXPECT_TRUE(chose(*middle, {"multiple", "dual", ""}));
+    EXPECT_TRUE(chose(*middle, {"opacity", "dither", "detail=0.5"}));
+    EXPECT_LE(middle->ms, 19);
+    // 14 ms: nothing but multiple=none and half the strands fits without giving up shadows.
+    const auto tight = best_within(model, 14);
+    EXPECT_TRUE(chose(*tight, {"multiple", "none", ""}));
+    EXPECT_TRUE(chose(*tight, {"shadow", "pcf_exponential", ""}));
+    EXPECT_NEAR(tight->error, 0.5 - 0.15 + 0.05, 1e-12);
+}
+
+TEST(AccuracyBudget, AgreesWithTryingAll) {
+    const FrameModel model = frame_model(table(), "curly", "brown");
+    // 2 opacity x 2 shadow x 1 scattering x 3 multiple x 1 environment.
+    ASSERT_EQ(combinations(model).size(), 12u);
+    for (double budget = 5; budget < 25; budget += 0.5) {
+        const auto best = best_within(model, budget);
+        ASSERT_TRUE(best);
+        for (const Combination& each : combinations(model)) {
+            if (best->ms > budget) {
+                EXPECT_GE(each.ms, best->ms) << "none fits: the cheapest";
+            } else if (each.ms <= budget) {
+                EXPECT_GE(each.error, best->error);
+            }
+        }
+    }
+}
+
+TEST(AccuracyBudget, WhatWasNotMeasuredTakesTheNearestThatWas) {
+    EXPECT_DOUBLE_EQ(frame_model(table(), "fur", "black").ms, 40) << "another colour of the groom";
+    EXPECT_DOUBLE_EQ(frame_model(table(), "wavy", "black").ms, 30) << "the mean of all";
+    EXPECT_TRUE(frame_model({}, "wavy", "black").empty());
+    EXPECT_FALSE(best_within({}, 10));
+}
+
+TEST(AccuracyTable, ReadsBackWhatItWrote) {
+    const test::OwnFolder folder("accuracy_table");
+    AccuracyTable written = table();
+    written.device = "a \"device\" <b>";
+    written.seed = 7;
+    written.rows[1].measures = {{"l2", 0.25}, {"flip", 0.5}};
+    written.rows[1].pictures = {"a.png", "b.png", "c.png"};
+    written.rows[1].transient_bytes = 1ULL << 40U;
+    ASSERT_TRUE(write_file(folder.path() / "t.json", std::string_view(to_json(written))));
+    const auto read = load_accuracy(folder.path() / "t.json");
+    ASSERT_TRUE(read) << read.error().message();
+    EXPECT_EQ(to_json(*read), to_json(written));
+
+    ASSERT_TRUE(write_file(folder.path() / "bad.json", std::string_view("{\"rows\": [{}]}")));
+    const auto bad = load_accuracy(folder.path() / "bad.json");
+    ASSERT_FALSE(bad);
+    EXPECT_NE(bad.error().message().find("bad.json"), std::string::npos);
+}
+
+TEST(AccuracyTable, SpreadIsMedianAndDeciles) {
+    std::vector<double> samples;
+    for (int i = 100; i >= 0; --i) samples.push_back(i);
+    const Spread spread = spread_of(samples);
+    EXPECT_DOUBLE_EQ(spread.median, 50);
+    EXPECT_DOUBLE_EQ(spread.low, 10);
+    EXPECT_DOUBLE_EQ(spread.high, 90);
+    EXPECT_DOUBLE_EQ(spread_of({}).median, 0);
+    EXPECT_DOUBLE_EQ(spread_of({4}).high, 4);
+}
+
+}  // namespace
+}  // namespace vellus::demo
