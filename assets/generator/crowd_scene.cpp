@@ -3,6 +3,7 @@
 #include <array>
 
 #include "assets/generator/figure.h"
+#include "assets/generator/figure_colliders.h"
 #include "assets/generator/ground.h"
 #include "assets/generator/random.h"
 #include "assets/generator/trigonometry.h"
@@ -23,20 +24,22 @@ struct Person {
     double eumelanin, pheomelanin;
     /// Diameter of a strand at the root in metres.
     double width;
+    /// Cards that stand for the strands; 0: the strands themselves, in motion.
+    int cards;
 };
 
 // From the front row's left to the back row's right.
 // clang-format off
 constexpr std::array<Person, 9> kPeople = {{
-    {-0.80, 0.55, 16.0, 1.00, {1.0, 1.0, 1.0}, {0.10, 0.25, 0.30}, {0.16, 0.14, 0.13}, 0.5, 1.1, 0.0008},
-    {0.02, 0.80, -4.0, 0.97, {0.62, 0.50, 0.42}, {0.72, 0.55, 0.16}, {0.05, 0.08, 0.15}, 3.2, 0.3, 0.0012},
-    {0.82, 0.50, -20.0, 1.03, {1.0, 0.97, 0.94}, {0.36, 0.08, 0.10}, {0.35, 0.30, 0.24}, 0.28, 0.18, 0.0008},
-    {-2.05, -0.75, 22.0, 0.98, {0.95, 0.90, 0.80}, {0.55, 0.55, 0.58}, {0.03, 0.03, 0.04}, 6.0, 0.1, 0.0012},
-    {-0.75, -0.80, 8.0, 1.02, {0.85, 0.76, 0.70}, {0.45, 0.16, 0.30}, {0.08, 0.12, 0.22}, 1.5, 0.4, 0.0012},
-    {0.50, -0.72, -8.0, 1.04, {0.36, 0.27, 0.22}, {0.12, 0.32, 0.14}, {0.28, 0.25, 0.20}, 7.0, 0.1, 0.0024},
-    {1.90, -0.95, -24.0, 1.05, {0.98, 0.92, 0.88}, {0.10, 0.12, 0.30}, {0.14, 0.13, 0.12}, 0.10, 0.02, 0.0022},
-    {-1.72, -2.60, 14.0, 0.96, {1.0, 0.95, 0.90}, {0.75, 0.70, 0.62}, {0.20, 0.07, 0.07}, 0.45, 0.35, 0.0015},
-    {0.15, -2.90, -2.0, 1.06, {0.75, 0.64, 0.55}, {0.08, 0.30, 0.42}, {0.05, 0.06, 0.07}, 2.4, 0.5, 0.0024},
+    {-0.80, 0.55, 16.0, 1.00, {1.0, 1.0, 1.0}, {0.10, 0.25, 0.30}, {0.16, 0.14, 0.13}, 0.5, 1.1, 0.0008, 0},
+    {0.02, 0.80, -4.0, 0.97, {0.62, 0.50, 0.42}, {0.72, 0.55, 0.16}, {0.05, 0.08, 0.15}, 3.2, 0.3, 0.0012, 0},
+    {0.82, 0.50, -20.0, 1.03, {1.0, 0.97, 0.94}, {0.36, 0.08, 0.10}, {0.35, 0.30, 0.24}, 0.28, 0.18, 0.0008, 0},
+    {-2.05, -0.75, 22.0, 0.98, {0.95, 0.90, 0.80}, {0.55, 0.55, 0.58}, {0.03, 0.03, 0.04}, 6.0, 0.1, 0.0012, 40},
+    {-0.75, -0.80, 8.0, 1.02, {0.85, 0.76, 0.70}, {0.45, 0.16, 0.30}, {0.08, 0.12, 0.22}, 1.5, 0.4, 0.0012, 40},
+    {0.50, -0.72, -8.0, 1.04, {0.36, 0.27, 0.22}, {0.12, 0.32, 0.14}, {0.28, 0.25, 0.20}, 7.0, 0.1, 0.0024, 60},
+    {1.90, -0.95, -24.0, 1.05, {0.98, 0.92, 0.88}, {0.10, 0.12, 0.30}, {0.14, 0.13, 0.12}, 0.10, 0.02, 0.0022, 50},
+    {-2.35, -2.60, 18.0, 0.96, {1.0, 0.95, 0.90}, {0.75, 0.70, 0.62}, {0.20, 0.07, 0.07}, 0.45, 0.35, 0.0015, 30},
+    {0.15, -2.90, -2.0, 1.06, {0.75, 0.64, 0.55}, {0.08, 0.30, 0.42}, {0.05, 0.06, 0.07}, 2.4, 0.5, 0.0024, 40},
 }};
 // clang-format on
 
@@ -65,14 +68,19 @@ std::vector<Track> add_person(GltfScene& scene, size_t index, const std::vector<
                                       {"rotation", list(turn_about({0.0, 1.0, 0.0}, who.yaw))},
                                       {"scale", {who.scale, who.scale, who.scale}}});
     const Rig rig = scene.add_rig(figure_joints(), node, number + "_");
+    Json look = {{"width", {{"root", who.width}, {"tip_scale", 0.45}}},
+                 {"material",
+                  {{"melanin", {{"eumelanin", who.eumelanin}, {"pheomelanin", who.pheomelanin}}},
+                   {"color_variation", 0.2},
+                   {"roughness", 0.32}}}};
+    if (who.cards > 0) {
+        look["cards"] = {{"count", who.cards}, {"max_texels", 131072}};
+    } else {
+        look["motion"] = {{"bend_length", 0.08}, {"drag", 1.2}, {"hold", 0.35}};
+        add_figure_colliders(scene, rig);
+    }
     scene.add_hair("hair_" + number, "crowd_" + number + ".hair",
-                   kHeadMiddle - figure_joints()[kHead].position,
-                   {{"width", {{"root", who.width}, {"tip_scale", 0.45}}},
-                    {"material",
-                     {{"melanin", {{"eumelanin", who.eumelanin}, {"pheomelanin", who.pheomelanin}}},
-                      {"color_variation", 0.2},
-                      {"roughness", 0.32}}}},
-                   rig.nodes[kHead]);
+                   kHeadMiddle - figure_joints()[kHead].position, look, rig.nodes[kHead]);
     const std::array<size_t, 5> materials = {
         scene.add_material("skin_" + number, who.skin, 0.55),
         scene.add_material("shirt_" + number, who.shirt, 0.9),
@@ -110,7 +118,7 @@ GltfScene make_crowd_scene(const std::vector<SkinnedPart>& figure) {
         }
     }
     scene.add_ground({.path_radius = 5.0, .path_width = 1.6, .center = {0.0, 0.0, 1.2}});
-    scene.add_camera({0.35, 1.50, 3.30}, {0.02, 1.08, -0.60}, 0.70);
+    scene.add_camera({0.38, 1.48, 4.35}, {0.02, 0.93, -0.60}, 0.62);
     scene.add_sun({0.45, 0.62, 0.64}, {1.0, 0.93, 0.82}, 3.2);
     std::vector<double> times;
     for (size_t key = 0; key <= kKeys; ++key) {

@@ -1,8 +1,7 @@
 #include "assets/generator/walk_scene.h"
 
-#include <array>
-
 #include "assets/generator/figure.h"
+#include "assets/generator/figure_colliders.h"
 #include "assets/generator/trigonometry.h"
 
 namespace vellus::sculpt {
@@ -55,25 +54,6 @@ void add_clips_in_place(GltfScene& scene, const Rig& rig) {
                    GltfScene::tracks_of(rig, kIdleKeys, stand));
 }
 
-/// Capsules of head, neck and torso, and an upper arm's on either side with its sleeve.
-void add_colliders(GltfScene& scene, const Rig& rig) {
-    std::vector<BodyCapsule> capsules = body_capsules();
-    for (BodyCapsule& capsule : capsules) {
-        capsule.from += kHeadMiddle;
-        capsule.to += kHeadMiddle;
-    }
-    const auto joint = [](FigureJoint index) { return figure_joints()[index].position; };
-    capsules.push_back({"arm_l", BodyPart::kLeftArm, joint(kLeftArm), joint(kLeftForearm), 0.0450});
-    capsules.push_back(
-        {"arm_r", BodyPart::kRightArm, joint(kRightArm), joint(kRightForearm), 0.0450});
-    // In the order of BodyPart.
-    constexpr std::array<FigureJoint, 5> kJointOf = {kHead, kNeck, kChest, kLeftArm, kRightArm};
-    for (const BodyCapsule& capsule : capsules) {
-        const FigureJoint at = kJointOf[static_cast<size_t>(capsule.part)];
-        scene.add_collider(capsule, joint(at), rig.nodes[at]);
-    }
-}
-
 Json hair_look(Node body) {
     return {{"width", {{"root", 0.00026}, {"tip_scale", 0.4}}},
             {"binding", {{"mesh", body}}},
@@ -119,7 +99,7 @@ GltfScene make_walk_scene(const std::vector<SkinnedPart>& figure) {
                                       {"skin", skin}});
     scene.add_hair("hair", "walk.hair", kHeadMiddle - figure_joints()[kHead].position,
                    hair_look(body), rig.nodes[kHead]);
-    add_colliders(scene, rig);
+    add_figure_colliders(scene, rig);
 
     scene.add_ground({.path_radius = radius});
     scene.add_camera({1.00, 1.02, 2.75}, {0.05, 0.83, 0.05}, 0.68, person);
