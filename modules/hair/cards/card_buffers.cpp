@@ -68,6 +68,8 @@ Result<CardBuffers> CardBuffers::upload(gpu::Device& device, const CardGroom& ca
     buffers.triangle_count = static_cast<uint32_t>(cards.triangles.size());
     buffers.card_count = static_cast<uint32_t>(cards.card_count());
     buffers.ribbons = cards.ribbons;
+    const Bounds bounds = bounds_of(cards);
+    buffers.ball = glm::vec4(bounds.center(), 0.5f * glm::length(bounds.size()));
     const CardSet set{
         .uvs = buffers.uvs.address(),
         .triangles = buffers.triangles.address(),

@@ -20,6 +20,7 @@ struct CardBuffers {
     uint32_t triangle_count = 0;
     uint32_t card_count = 0;
     bool ribbons = false;
+    glm::vec4 ball{0.0f};  ///< around all cards, groom space: centre and radius
 
     /// `parameters` is where upload_card_points put them. Errors name the column that did not fit.
     static Result<CardBuffers> upload(gpu::Device& device, const CardGroom& cards,

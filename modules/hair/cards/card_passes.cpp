@@ -96,6 +96,19 @@ uint32_t threads_of(const CardBuffers& cards, glm::ivec2 pixels) {
     return std::clamp(std::bit_ceil(static_cast<uint32_t>(height / 8)), 1U, 32U);
 }
 
+/// About how many pixels a groom takes of a picture; all where it reaches behind the eye.
+glm::ivec2 pixels_of(const CardBuffers& cards, const glm::dmat4& to_clip, glm::ivec2 size) {
+    const glm::dvec4 center = to_clip * glm::dvec4(glm::dvec3(cards.ball), 1.0);
+    const glm::dmat4 rows = glm::transpose(to_clip);
+    const auto radius = static_cast<double>(cards.ball.w);
+    const double nearest = center.w - radius * glm::length(glm::dvec3(rows[3]));
+    if (nearest <= 0.0) return size;
+    const glm::dvec2 across =
+        radius / nearest *
+        glm::dvec2(glm::length(glm::dvec3(rows[0])), glm::length(glm::dvec3(rows[1])));
+    return glm::ivec2(glm::min(across, glm::dvec2(1.0)) * glm::dvec2(size));
+}
+
 bool make_projection(CardPipelines& pipelines, scene::RenderFrame& frame) {
     return frame.compute(pipelines.project, [] {
         return info("hair/cards/project.comp.glsl", sizeof(CardProjectPush));
@@ -209,13 +222,15 @@ graph::BufferHandle describe_card_shadow(const HairFrame& hair, const light::Lig
     map = pass.write(map, Access::kStorageReadWrite);
     pass.execute([casters = std::span<const HairDraw>(hair.casters), vertices,
                   target = light.hair_depth, size = light.hair_size,
+                  to_hair = lights.world_to_hair[index],
                   pipeline = pipelines.shadow_depth](PassContext& context) {
         gpu::CommandBuffer& commands = context.commands();
         commands.bind(*pipeline);
         VkDeviceAddress source = context.address(vertices);
         for (const HairDraw& draw : casters) {
             if (draw.cards == nullptr) continue;
-            const uint32_t threads = threads_of(*draw.cards, glm::ivec2(size));
+            const uint32_t threads = threads_of(
+                *draw.cards, pixels_of(*draw.cards, to_hair * draw.world, glm::ivec2(size)));
             commands.push(CardShadowPush{.cards = draw.cards->set.address(),
                                          .vertices = source,
                                          .target = target,
