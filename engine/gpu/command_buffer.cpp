@@ -4,6 +4,8 @@ namespace vellus::gpu {
 
 namespace {
 constexpr size_t kMaxBindings = 16;
+/// maxComputeWorkGroupCount is at least this on every device (Vulkan 1.3, table 51).
+constexpr uint32_t kMostGroups = 65535;
 }
 
 void CommandBuffer::bind(const Pipeline& pipeline) {
@@ -57,6 +59,12 @@ void CommandBuffer::push_bytes(const void* bytes, uint32_t size) {
 void CommandBuffer::dispatch(uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) {
     vkCmdDispatch(handle_, groups_x, groups_y, groups_z);
     ++dispatches_;
+}
+
+void CommandBuffer::dispatch_threads(uint32_t threads, uint32_t group_size) {
+    const uint32_t groups = threads / group_size + (threads % group_size != 0 ? 1 : 0);
+    const uint32_t rows = groups / kMostGroups + (groups % kMostGroups != 0 ? 1 : 0);
+    dispatch(rows > 1 ? (groups + rows - 1) / rows : groups, rows > 1 ? rows : 1);
 }
 
 void CommandBuffer::draw(uint32_t vertices, uint32_t instances, uint32_t first_vertex) {

@@ -37,10 +37,9 @@ class CommandBuffer {
         push_bytes(&constants, sizeof(T));
     }
     void dispatch(uint32_t groups_x, uint32_t groups_y = 1, uint32_t groups_z = 1);
-    /// Enough groups of `group_size` for `threads`.
-    void dispatch_threads(uint32_t threads, uint32_t group_size) {
-        dispatch((threads + group_size - 1) / group_size);
-    }
+    /// Enough groups of `group_size` for `threads`, in rows where they are more than every device
+    /// takes along one axis; shaders number them by common/thread.glsl.
+    void dispatch_threads(uint32_t threads, uint32_t group_size);
     void draw(uint32_t vertices, uint32_t instances = 1, uint32_t first_vertex = 0);
     /// Draws with 32-bit indices from the start of `buffer`.
     void draw_indexed(VkBuffer buffer, uint32_t indices, uint32_t instances = 1);

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "character/mesh_data.glsl"
+#include "common/thread.glsl"
 
 // Morphs and skins one primitive, this frame and the last, so that later stages only project. glTF 2.0,
 // sections 3.7.2.2 and 3.7.3; the plain counterpart is modules/character/reference/skin.h.
@@ -34,7 +35,7 @@ vec3 transform_normal(mat4x3 m, vec3 n) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = thread_index();
     if (i >= vertex_count) return;
     RestVertex v = rest.at[i];
     vec3 position = v.position;

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
+#include "common/thread.glsl"
 #include "hair/scattering/scattering.glsl"
 
 // Single scattering alone: each thread has one fibre and eye and turns a light around them.
@@ -25,7 +26,7 @@ vec3 direction(uint seed) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = thread_index();
     if (i >= count) return;
     HairSurface surface = HairSurface(color, 0.5, roughness, 1.0, shift);
     HairFrame frame = hair_frame(direction(3u * i), direction(3u * i + 1u));

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/thread.glsl"
 #include "hair/geometry/strands.glsl"
 
 // Points of a groom that no mesh carries but that a later pass will move: with its node, this frame and
@@ -15,7 +16,7 @@ layout(push_constant, scalar) uniform Push {
 };
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = thread_index();
     if (i >= point_count) return;
     vec4 p = vec4(positions.at[i], 1.0);
     Points out_points = Points(points);

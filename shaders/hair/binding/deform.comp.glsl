@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/thread.glsl"
 #include "hair/binding/bound_roots.glsl"
 #include "hair/binding/root_frame.glsl"
 #include "hair/geometry/strands.glsl"
@@ -21,7 +22,7 @@ layout(push_constant, scalar) uniform Push {
 };
 
 void main() {
-    uint strand = gl_GlobalInvocationID.x;
+    uint strand = thread_index();
     if (strand >= strand_count) return;
     BoundRoot root = roots.at[strand];
     MovedVertex a = moved.at[root.vertices.x];

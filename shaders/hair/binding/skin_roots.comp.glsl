@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/thread.glsl"
 #include "hair/binding/bound_roots.glsl"
 #include "hair/binding/root_frame.glsl"
 
@@ -24,7 +25,7 @@ mat4x3 blend(Affines from, BoundVertex v) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = thread_index();
     if (i >= vertex_count) return;
     BoundVertex v = vertices.at[i];
     vec3 position = v.position, previous = v.position;

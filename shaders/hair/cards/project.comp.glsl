@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/thread.glsl"
 #include "hair/cards/cards.glsl"
 
 // Each vertex of a card groom as one view or light sees it.
@@ -104,7 +105,7 @@ void mesh_vertex(uint i) {
 
 void main() {
     set = cards.set;
-    uint i = gl_GlobalInvocationID.x;
+    uint i = thread_index();
     if ((set.flags & kCardsRibbons) != 0u) {
         if (3u * i < set.point_count) ribbon_row(i);
     } else if (i < set.point_count) {

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/thread.glsl"
 #include "hair/cards/cards.glsl"
 #include "hair/opacity/dither.glsl"
 
@@ -33,8 +34,8 @@ void fragment(ivec2 texel, float depth, float alpha, uint seed) {
 #include "hair/cards/raster.glsl"
 
 void main() {
-    uint triangle = gl_GlobalInvocationID.x / threads;
+    uint triangle = thread_index() / threads;
     if (triangle >= triangle_count) return;
     CardSet set = cards.set;
-    walk_card_triangle(set, vertices, triangle, gl_GlobalInvocationID.x % threads, threads, size);
+    walk_card_triangle(set, vertices, triangle, thread_index() % threads, threads, size);
 }

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_atomic_int64 : require
+#include "common/thread.glsl"
 #include "hair/cards/cards.glsl"
 #include "hair/opacity/dither.glsl"
 
@@ -38,9 +39,9 @@ void fragment(ivec2 pixel, float depth, float alpha, uint seed) {
 #include "hair/cards/raster.glsl"
 
 void main() {
-    uint triangle = gl_GlobalInvocationID.x / threads;
+    uint triangle = thread_index() / threads;
     if (triangle >= triangle_count) return;
     id = first_id + triangle + 1u;
     CardSet set = cards.set;
-    walk_card_triangle(set, vertices, triangle, gl_GlobalInvocationID.x % threads, threads, size);
+    walk_card_triangle(set, vertices, triangle, thread_index() % threads, threads, size);
 }

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/portable.glsl"
+#include "common/thread.glsl"
 #include "hair/dynamics/follow.glsl"
 
 // Bends strands that their roots have carried, this frame and the last, as their guides bend. One thread
@@ -37,7 +38,7 @@ void bend(Points points_of, uint first, uint last, StrandGuides guides) {
 }
 
 void main() {
-    uint strand = gl_GlobalInvocationID.x;
+    uint strand = thread_index();
     if (strand >= strand_count) return;
     uint first = strand_begin.at[strand], last = strand_begin.at[strand + 1u];
     StrandGuides guides = follow.at[strand];

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/portable.glsl"
+#include "common/thread.glsl"
 #include "hair/dynamics/follow.glsl"
 
 // Bends cards that their roots have carried, this frame and the last, as their guides bend: the middles of
@@ -55,7 +56,7 @@ void bend(Points points_of, uint first_row, uint end_row, StrandGuides guides) {
 }
 
 void main() {
-    uint card = gl_GlobalInvocationID.x;
+    uint card = thread_index();
     if (card >= card_count) return;
     uint first = card_begin.at[card], end = card_begin.at[card + 1u];
     StrandGuides guides = follow.at[card];

@@ -3,6 +3,7 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 #include "common/portable.glsl"
+#include "common/thread.glsl"
 #include "hair/dynamics/rod_math.glsl"
 #include "hair/dynamics/rod_link.glsl"
 #include "hair/dynamics/rod_contact.glsl"
@@ -89,7 +90,7 @@ RodCapsuleStep rod_capsule(int c, float begin, float end) {
 #include "hair/dynamics/rod_step.glsl"
 
 void main() {
-    guide = gl_GlobalInvocationID.x;
+    guide = thread_index();
     if (guide >= count) return;
     rod_links = int(links);
     rod_params = params.at;

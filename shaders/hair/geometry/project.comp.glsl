@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/thread.glsl"
 #include "hair/geometry/strands.glsl"
 
 // Each point of a groom to pixels, depth and width in pixels, once per view or light.
@@ -18,7 +19,7 @@ layout(push_constant, scalar) uniform Push {
 };
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = thread_index();
     if (i >= point_count) return;
     vec4 clip = to_clip * vec4(positions.at[i], 1.0);
     bool visible = clip.w > 0.0 && clip.z <= clip.w;

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_atomic_int64 : require
 #include "common/portable.glsl"
+#include "common/thread.glsl"
 #include "hair/geometry/strands.glsl"
 #include "hair/opacity/dither.glsl"
 
@@ -37,7 +38,7 @@ void fragment(ivec2 pixel, float depth, float coverage) {
 #include "hair/geometry/raster.glsl"
 
 void main() {
-    uint segment = gl_GlobalInvocationID.x;
+    uint segment = thread_index();
     if (segment >= segment_count) return;
     uint point = segment_point.at[segment];
     dither = dither_strand(strand_seed.at[segment_strand.at[segment]]);

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
+#include "common/thread.glsl"
 #include "hair/reference/probe.glsl"
 
 // Evaluates probe() for each of `count` inputs.
@@ -11,6 +12,6 @@ layout(buffer_reference, scalar) writeonly buffer Outputs { ProbeOutput at[]; };
 layout(push_constant, scalar) uniform Push { Inputs inputs; Outputs outputs; uint count; };
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = thread_index();
     if (i < count) outputs.at[i] = probe(inputs.at[i], i);
 }

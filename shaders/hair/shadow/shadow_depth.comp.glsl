@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/portable.glsl"
+#include "common/thread.glsl"
 #include "hair/geometry/strands.glsl"
 #include "hair/opacity/dither.glsl"
 
@@ -31,7 +32,7 @@ void fragment(ivec2 texel, float depth, float coverage) {
 #include "hair/geometry/raster.glsl"
 
 void main() {
-    uint segment = gl_GlobalInvocationID.x;
+    uint segment = thread_index();
     if (segment >= segment_count) return;
     uint point = segment_point.at[segment];
     dither = dither_strand(strand_seed.at[segment_strand.at[segment]]);
