@@ -23,13 +23,18 @@ struct AxisFit {
     double low = std::numeric_limits<double>::infinity();
 };
 
+/// `value` within [low, high]; `fallback` where it is not a number.
+float clamped(float value, float low, float high, float fallback) {
+    return std::isnan(value) ? fallback : std::clamp(value, low, high);
+}
+
 }  // namespace
 
 CameraPose camera_pose(const Camera& camera, const glm::dmat4& world) {
     CameraPose pose;
     pose.position = glm::dvec3(world[3]);
-    pose.vertical_fov = camera.vertical_fov;
-    pose.near_plane = camera.near_plane;
+    pose.vertical_fov = clamped(camera.vertical_fov, 1e-3f, 3.14f, pose.vertical_fov);
+    pose.near_plane = clamped(camera.near_plane, 1e-6f, 1e6f, pose.near_plane);
     const glm::dvec3 back(world[2]);
     const glm::dvec3 right = glm::cross(glm::dvec3(world[1]), back);
     if (glm::dot(back, back) > 0.0 && glm::dot(right, right) > 0.0) {

@@ -16,7 +16,8 @@ struct CameraPose {
     float near_plane = 0.1f;
 };
 
-/// The pose of a camera node; scale and shear of `world` are removed.
+/// The pose of a camera node; scale and shear of `world` are removed, the field of view kept within
+/// [1e-3, 3.14] radians and the near plane within [1e-6, 1e6] metres (not a number: the default).
 CameraPose camera_pose(const Camera& camera, const glm::dmat4& world);
 
 /// LocalTransform of a root entity with this pose.
