@@ -37,17 +37,19 @@ struct ShadowView {
     float range = 0.0f;  ///< metres: of reversed depth (sun), near plane (spot)
 };
 
-/// Orthographic view along the sun's beam around `focus`, its centre on whole texels so that
-/// shadows do not crawl when the groom moves; depth reaches over everything that may cast.
-ShadowView fit_sun(const Sphere& focus, const Sphere& all, uint32_t size,
-                   const glm::dvec3& to_sun) {
+/// Orthographic view along the sun's beam around `focus`, its centre on whole texels from
+/// `grid_origin` so that shadows do not crawl when the groom moves; depth reaches over everything
+/// that may cast.
+ShadowView fit_sun(const Sphere& focus, const Sphere& all, uint32_t size, const glm::dvec3& to_sun,
+                   const glm::dvec3& grid_origin) {
     const glm::dmat3 axes = axes_along(to_sun);
     // A radius in steps of an eighth keeps the texel size while the groom breathes.
     const double radius = std::exp2(std::ceil(8.0 * std::log2(focus.radius * 1.02)) / 8.0);
     const double texel = 2.0 * radius / size;
-    glm::dvec3 center = glm::transpose(axes) * focus.center;
+    glm::dvec3 center = glm::transpose(axes) * (focus.center - grid_origin);
     center.x = std::floor(center.x / texel) * texel;
     center.y = std::floor(center.y / texel) * texel;
+    center += glm::transpose(axes) * grid_origin;
     const double reach = glm::distance(focus.center, all.center) + all.radius + radius;
 
     glm::dmat4 to_light(glm::transpose(axes));
@@ -107,7 +109,8 @@ PunctualLight describe(const scene::Light& source, const glm::dvec3& position,
 }  // namespace
 
 float strength(const scene::Light& light) {
-    return light.intensity * std::max({light.color.r, light.color.g, light.color.b});
+    const float brightest = std::max({light.color.r, light.color.g, light.color.b});
+    return light.intensity > 0.0f && brightest > 0.0f ? light.intensity * brightest : 0.0f;
 }
 
 void gather_lights(Query<const scene::MeshInstance> meshes,
@@ -126,6 +129,10 @@ void gather_lights(Query<const scene::MeshInstance> meshes,
     const Sphere all = sphere_around(all_box);
     const Sphere focus = focus_box.empty() ? all : sphere_around(focus_box);
     const Sphere hair = hair_box.empty() ? focus : sphere_around(hair_box);
+    // Texels are counted from where the scene first was, so that a scene elsewhere has the same
+    // ones.
+    if (!set->grid_origin && !all_box.empty()) set->grid_origin = all.center;
+    const glm::dvec3 grid_origin = set->grid_origin.value_or(glm::dvec3(0.0));
     const double height = picture->size.y;
     set->hair_size = map_size(hair, view->pose, height, *settings, set->hair_size);
     set->opaque_size = map_size(focus, view->pose, height, *settings, set->opaque_size);
@@ -160,7 +167,7 @@ void gather_lights(Query<const scene::MeshInstance> meshes,
             light.shadow_tile = 0;
             const auto fit = [&](const Sphere& sphere, uint32_t size) {
                 return light.kind == PunctualKind::kSun
-                           ? fit_sun(sphere, all, size, to_light)
+                           ? fit_sun(sphere, all, size, to_light, grid_origin)
                            : fit_spot(source, position, to_light, size);
             };
             const ShadowView of_hair = fit(hair, set->hair_size);

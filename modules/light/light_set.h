@@ -2,6 +2,7 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "engine/ecs/query.h"
 #include "engine/ecs/system.h"
@@ -36,6 +37,9 @@ struct LightSet {
     uint32_t hair_size = 0;    ///< texels along a side of every map of hair
     uint32_t opaque_size = 0;  ///< and of every tile of opaque casters
     uint32_t left_out = 0;     ///< lights beyond kMaxLights
+    /// Where texels of a sun's maps are counted from: the middle of the scene when it was first
+    /// lit.
+    std::optional<glm::dvec3> grid_origin;
 };
 
 /// How much a light counts beside others: its intensity in its strongest channel.
