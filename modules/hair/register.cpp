@@ -33,6 +33,7 @@ void register_hair(World& world, Schedule& schedule) {
     world.insert_resource(HairMotionPasses{});
     world.insert_resource(Wind{});
     schedule.add(move_hair).in(scene::kView).after(pose_hair).after(scene::update_view);
+    schedule.add(empty_clear_bounds).in(scene::kView).after(move_hair);
     schedule.add(gather_hair)
         .in(scene::kGather)
         .after(light::gather_lights)

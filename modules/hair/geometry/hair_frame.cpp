@@ -209,6 +209,12 @@ void update_hair_bounds(HairBoundsQuery hair, Res<const HairLibrary> library) {
     });
 }
 
+void empty_clear_bounds(Query<const HairMaterial, scene::WorldBounds, With<Hair>> hair) {
+    hair.each([](const HairMaterial& material, scene::WorldBounds& bounds) {
+        if (material.alpha <= 0.0f) bounds.box = {};
+    });
+}
+
 void gather_hair(HairQuery hair, Res<const HairLibrary> library, Res<const HairBindings> bindings,
                  Res<const HairPoses> poses, Res<const scene::ViewState> view,
                  Res<const light::LightSet> lights, Res<HairFrame> frame) {

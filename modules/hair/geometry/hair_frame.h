@@ -144,17 +144,19 @@ struct HairFrame {
 /// hair to pose_hair.
 using HairBoundsQuery = Query<const Hair, const scene::WorldTransform, scene::WorldBounds,
                               Without<character::MeshSlot>, Without<HairBinding>>;
-using HairQuery =
-    Query<Entity, const Hair, const scene::WorldTransform, const scene::PreviousWorldTransform,
-          const scene::WorldBounds, const HairMaterial, const HairWidth, const HairShadow,
-          const HairTechniques, const HairBinding*, const HairMoves*, const HairDetail*,
-          const HairMotion*>;
+using HairQuery = Query<Entity, const Hair, const scene::WorldTransform,
+                        const scene::PreviousWorldTransform, const scene::WorldBounds,
+                        const HairMaterial, const HairWidth, const HairShadow, const HairTechniques,
+                        const HairBinding*, const HairMoves*, const HairDetail*, const HairMotion*>;
 
 /// Whether any of the box may lie inside the picture.
 bool in_view(const scene::Box& box, const scene::ViewState& view);
 
 /// System: boxes of hair in the world, widened by a strand.
 void update_hair_bounds(HairBoundsQuery hair, Res<const HairLibrary> library);
+
+/// System: hair of alpha 0 takes no room, so that shadow maps fit what shows, as without that hair.
+void empty_clear_bounds(Query<const HairMaterial, scene::WorldBounds, With<Hair>> hair);
 
 /// System: which grooms this frame draws, how, and why.
 void gather_hair(HairQuery hair, Res<const HairLibrary> library, Res<const HairBindings> bindings,
