@@ -30,6 +30,8 @@ class Renderer final : public ContentHost {
     ~Renderer() override;
 
     World& world() override { return world_; }
+    /// The systems of a frame; after adding more, build it again.
+    Schedule& schedule() { return schedule_; }
     /// Starts histories anew.
     void resize(uint32_t width, uint32_t height) override;
     Result<void> settle() override;

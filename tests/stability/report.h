@@ -6,7 +6,7 @@
 
 namespace vellus::test {
 
-/// One line of the table that the stability tests print at their end.
+/// One line of the table that `ctest -L stability` prints at its end.
 struct StabilityRow {
     std::string area;
     std::string test;
@@ -16,7 +16,7 @@ struct StabilityRow {
 };
 
 /// Adds the row to the table and fails the running test where error > bound or is not a number.
-void report_row(StabilityRow row);
+void report_row(const StabilityRow& row);
 
 /// Keeps the largest error seen and what caused it.
 class Worst {
