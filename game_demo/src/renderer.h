@@ -51,6 +51,8 @@ class Renderer final : public ContentHost {
     Result<void> wait();
 
     [[nodiscard]] const graph::FrameReport& report() const { return executor_->report(); }
+    /// Vulkan objects the frame graph has made so far; a steady frame makes none.
+    [[nodiscard]] uint64_t objects_created() const { return executor_->objects_created(); }
     /// Of the last frame drawn to kPixels, after wait().
     [[nodiscard]] asset::Image pixels() const;
     /// Of the last frame drawn to kPicture; in TRANSFER_SRC_OPTIMAL.

@@ -50,6 +50,18 @@ TEST(Golden, PortraitWithoutShadowsAndEnvironment) {
                             "environment=none", "--set", "multiple=none"});
 }
 
+TEST(Golden, Walk) {
+    check("walk", {kAssets + "scenes/walk.gltf"});
+}
+
+TEST(Golden, Crowd) {
+    check("crowd", {kAssets + "scenes/crowd.gltf"});
+}
+
+TEST(Golden, Fur) {
+    check("fur", {kAssets + "scenes/fur.gltf"});
+}
+
 TEST(Golden, BareGroom) {
     check("groom", {kAssets + "grooms/long.hair"});
 }
