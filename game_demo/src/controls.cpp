@@ -123,6 +123,7 @@ Wishes read_wishes(const Input& input) {
                   .screenshot = pressed(Key::kF12) || pressed(Key::kP) || pad(PadButton::kY),
                   .help = pressed(Key::kF1) || pressed(Key::kH),
                   .panels = pressed(Key::kTab),
+                  .accuracy = pressed(Key::kF2),
                   .taa = pressed(Key::kT),
                   .home = pressed(Key::kHome) || pad(PadButton::kRightThumb),
                   .next_camera = pressed(Key::kC) || pad(PadButton::kBack),
@@ -146,7 +147,8 @@ const char* controls_help() {
            "P or F12        screenshot      O           a turn of pictures\n"
            "PageUp PageDown time of day     F4          next scene     T      TAA on or off\n"
            "1 2 3 4 5       next technique for opacity, shadow, scattering, multiple, environment\n"
-           "Tab             panels          H or F1     this help      Esc    end\n"
+           "Tab             panels          F2          error against time of every technique\n"
+           "H or F1         this help       Esc         end\n"
            "gamepad: left stick walks, right stick turns, triggers come closer; Start pause, X "
            "step,\n"
            "         Y screenshot, Back camera, B scene, bumpers time of day\n";

@@ -37,6 +37,7 @@ struct Wishes {
     bool screenshot = false;
     bool help = false;
     bool panels = false;
+    bool accuracy = false;
     bool taa = false;
     bool home = false;
     bool next_camera = false;

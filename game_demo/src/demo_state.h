@@ -16,6 +16,7 @@ struct DemoState {
     bool step = false;  ///< one frame although paused
     bool turntable = false;
     bool panels = false;
+    bool accuracy = false;  ///< chart of error against time
     bool help = false;
     double speed = 1.0;  ///< of the simulation's clock
     CameraMode camera = CameraMode::kScene;

@@ -7,6 +7,7 @@
 #include "engine/platform/files.h"
 #include "engine/platform/hash.h"
 #include "engine/platform/log.h"
+#include "game_demo/src/accuracy/spend_budget.h"
 #include "game_demo/src/content.h"
 #include "game_demo/src/explain.h"
 #include "game_demo/src/progress.h"
@@ -73,6 +74,20 @@ Result<RunStats> draw_frames(Renderer& renderer, const Options& options) {
     return run;
 }
 
+/// Frames that tell what one takes, before the first that counts.
+Result<void> keep_to_budget(Renderer& renderer, const Options& options) {
+    auto table = load_accuracy_or_default(options.accuracy);
+    if (!table) return table.error();
+    for (FrameWatch watch; !watch.done();) {
+        auto frame = draw_measured(renderer, Output::kNowhere);
+        if (!frame) return frame.error();
+        const auto share = watch.add(frame->report);
+        if (!share) continue;
+        return spend_budget(renderer.world(), *table, *share, *options.budget_ms);
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<void> run_headless(gpu::Device& device, const Options& options) {
@@ -80,6 +95,9 @@ Result<void> run_headless(gpu::Device& device, const Options& options) {
     auto renderer = Renderer::create(device, options.switches);
     if (!renderer) return renderer.error();
     if (auto loaded = load_content(**renderer, options); !loaded) return loaded.error();
+    if (options.budget_ms) {
+        if (auto kept = keep_to_budget(**renderer, options); !kept) return kept;
+    }
     auto run = draw_frames(**renderer, options);
     if (!run) return run.error();
     run->device = device.traits();

@@ -95,6 +95,16 @@ void add_device_options(CLI::App& app, Options& options) {
                  "Vulkan validation; ends with status 1 if it had anything to say");
     app.add_flag("--explain", options.explain,
                  "Print which effects the scene calls for and why, and the last frame's plan");
+    app.add_option("--budget", options.budget_ms,
+                   "Pick techniques and detail of each groom so that a frame takes MS milliseconds "
+                   "of the device, from a table of vellus_accuracy; after a few frames that tell "
+                   "how long it takes as it is")
+        ->check(CLI::PositiveNumber)
+        ->type_name("MS");
+    app.add_option("--accuracy", options.accuracy,
+                   "That table, also for F2; the one that came with the program if not given")
+        ->check(CLI::ExistingFile)
+        ->type_name("FILE.json");
     app.add_option_function<std::vector<std::string>>(
            "--graph-switch",
            [&](const std::vector<std::string>& texts) {

@@ -45,6 +45,8 @@ struct Options {
     bool validation = false;
     bool no_taa = false;
     bool explain = false;
+    std::optional<double> budget_ms;  ///< techniques are picked so that a frame takes that long
+    std::filesystem::path accuracy;   ///< table to pick by; empty: the one that came along
     bool list_devices = false;
 };
 

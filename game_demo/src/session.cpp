@@ -104,7 +104,7 @@ Result<void> Session::start() {
     state_.scene = static_cast<size_t>(open - state_.scenes.begin()) % state_.scenes.size();
     fmt::print("{}", controls_help());
     std::fflush(stdout);
-    return {};
+    return options_.budget_ms ? open_accuracy() : Result<void>{};
 }
 
 Result<void> Session::run() {
@@ -151,6 +151,11 @@ void Session::obey(const Wishes& wishes) {
         if (state_.help) fmt::print("{}", controls_help());
     }
     if (wishes.panels) state_.panels = !state_.panels;
+    if (wishes.accuracy) {
+        const auto there = open_accuracy();
+        if (!there) log_error("{}", there.error().message());
+        state_.accuracy = there && !state_.accuracy;
+    }
     if (wishes.home) state_.camera = CameraMode::kScene;
     if (wishes.next_camera) {
         const int modes = scene_.player ? 4 : 3;
@@ -199,7 +204,7 @@ Result<void> Session::apply_state() {
         player = scene_.player->position(world());
     }
     const bool panels_have_mouse =
-        panels_ && (state_.panels || state_.help) && panels_->takes_mouse();
+        panels_ && (state_.panels || state_.help || state_.accuracy) && panels_->takes_mouse();
     viewer.update(panels_have_mouse ? nullptr : &input,
                   static_cast<double>(window_.framebuffer_size().height), seconds, player);
     if (state_.turntable) viewer.turn(kTurntableSpeed * seconds);
@@ -207,15 +212,34 @@ Result<void> Session::apply_state() {
     return {};
 }
 
+/// The table of measurements, when it is first asked for.
+Result<void> Session::open_accuracy() {
+    if (accuracy_) return {};
+    auto table = load_accuracy_or_default(options_.accuracy);
+    if (!table) return table.error();
+    accuracy_.emplace(std::move(*table));
+    return {};
+}
+
+Result<void> Session::keep_to_budget() {
+    const auto share = watch_.add(scene_.renderer->report());
+    if (!share) return {};
+    return spend_budget(world(), accuracy_->table(), *share, *options_.budget_ms);
+}
+
 void Session::describe_panels() {
     panels_->begin(window_.input(), window_.framebuffer_size(), frame_seconds_);
     if (state_.panels) main_panel(state_, times_, scene_.daylight.get(), *scene_.renderer);
     if (state_.help) help_panel(state_);
+    if (state_.accuracy) {
+        accuracy_->show(state_, world(), scene_.renderer->report(),
+                        options_.budget_ms.value_or(0.0));
+    }
     panels_->end();
 }
 
 Result<void> Session::show() {
-    if (!panels_ && (state_.panels || state_.help)) {
+    if (!panels_ && (state_.panels || state_.help || state_.accuracy)) {
         auto panels = Panels::create(device_);
         if (!panels) return panels.error();
         panels_ = std::move(*panels);
@@ -223,6 +247,9 @@ Result<void> Session::show() {
             [this](scene::RenderFrame& frame) { panels_->describe(frame); });
     }
     if (panels_) describe_panels();
+    if (options_.budget_ms) {
+        if (auto kept = keep_to_budget(); !kept) return kept;
+    }
     if (auto drawn = scene_.renderer->draw(Output::kPicture); !drawn) return drawn;
     const gpu::Image& picture = scene_.renderer->picture();
     auto shown = swapchain_->present(picture.handle(), picture.info().width, picture.info().height);
@@ -264,6 +291,8 @@ void Session::switch_scene(size_t index) {
     }
     static_cast<void>(scene_.renderer->wait());
     panels_.reset();
+    if (accuracy_) accuracy_->forget();
+    watch_ = {};
     scene_ = std::move(*scene);
     options_ = options;
     state_.scene = index;

@@ -7,6 +7,7 @@
 #include "game_demo/src/daylight.h"
 #include "game_demo/src/demo_state.h"
 #include "game_demo/src/options.h"
+#include "game_demo/src/panels/accuracy_panel.h"
 #include "game_demo/src/panels/panels.h"
 #include "game_demo/src/player.h"
 #include "game_demo/src/renderer.h"
@@ -40,6 +41,8 @@ class Session {
     Result<void> screenshot(const std::string& stem);
     Result<void> turntable_picture();
     void switch_scene(size_t index);
+    Result<void> open_accuracy();
+    Result<void> keep_to_budget();
     void reload_shaders();
     void count_frame();
     World& world() { return scene_.renderer->world(); }
@@ -51,6 +54,8 @@ class Session {
     std::unique_ptr<Panels> panels_;
     OpenScene scene_;
     DemoState state_;
+    std::optional<AccuracyPanel> accuracy_;
+    FrameWatch watch_;  ///< of the open scene, where there is a budget
     FrameTimes times_;
     double frame_start_ = 0.0;
     double frame_seconds_ = 0.0;

@@ -19,6 +19,7 @@ namespace {
 constexpr float kBallRadius = 0.095f;
 constexpr glm::vec3 kBallCentre{0.0f, 1.6f, 0.0f};
 constexpr float kWidest = 0.0003f;
+constexpr uint32_t kMostPoints = 40;
 constexpr double kYaw = 2.3;  // three quarters from behind, a little from above: all hair
 constexpr double kPitch = 0.1;
 constexpr double kFill = 0.95;
@@ -88,6 +89,7 @@ Result<StudioGroom> grow_studio_groom(const std::string& name, uint32_t strands,
     if (!fur) settings.length = std::min(settings.length, 0.28f);
     const float thicker = static_cast<float>(settings.count) / static_cast<float>(strands);
     settings.width = std::min(settings.width * std::max(thicker, 1.0f), kWidest);
+    settings.points = std::min(settings.points, kMostPoints);
     settings.count = strands;
     auto grown = hair::grow_groom(groom.ball, settings, static_cast<uint32_t>(seed) + 1);
     if (!grown) return grown.error();
