@@ -1,6 +1,7 @@
 #include "game_demo/src/accuracy/budget.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "modules/hair/techniques.h"
@@ -9,16 +10,31 @@ namespace vellus::demo {
 
 namespace {
 
-/// Sums for a mean.
+/// Of no picture: darker than black.
+constexpr double kAllDark = -1.0;
+
+FrameFigures figures_of(const AccuracyRow& row) {
+    const auto bias = row.measures.find("bias");
+    FrameFigures figures{.ms = row.frame_ms.median};
+    if (bias != row.measures.end()) figures.bias = bias->second;
+    figures.rest = std::max(row.error * row.error - figures.bias * figures.bias, 0.0);
+    return figures;
+}
+
+/// Figures of several rows, for their mean.
 struct Mean {
-    double ms = 0.0;
-    double error = 0.0;
+    FrameFigures sum;
     uint32_t count = 0;
 
     void add(const AccuracyRow& row) {
-        ms += row.frame_ms.median;
-        error += row.error;
+        const FrameFigures figures = figures_of(row);
+        sum.ms += figures.ms;
+        sum.bias += figures.bias;
+        sum.rest += figures.rest;
         ++count;
+    }
+    [[nodiscard]] FrameFigures mean() const {
+        return {sum.ms / count, sum.bias / count, sum.rest / count};
     }
 };
 
@@ -45,16 +61,22 @@ std::vector<const AccuracyRow*> matching(const AccuracyTable& table, std::string
     return rows;
 }
 
-std::vector<AxisChoice> default_choices() {
+}  // namespace
+
+std::vector<AxisChoice> base_choices() {
+    hair::HairTechniques techniques;
+    techniques.scattering = hair::ScatteringTechnique::kSeriesB;
+    techniques.multiple = hair::MultipleTechnique::kDual;
     std::vector<AxisChoice> choices;
     for (const std::string_view axis : hair::axes()) {
-        choices.push_back(
-            {std::string(axis), std::string(hair::technique_id(hair::HairTechniques{}, axis)), ""});
+        choices.push_back({std::string(axis), std::string(technique_id(techniques, axis)), ""});
     }
     return choices;
 }
 
-}  // namespace
+double FrameFigures::error() const {
+    return std::sqrt(bias * bias + std::max(rest, 0.0));
+}
 
 std::string text(const AxisChoice& choice) {
     std::string result = choice.axis + "=" + choice.technique;
@@ -77,30 +99,39 @@ FrameModel frame_model(const AccuracyTable& table, std::string_view groom,
         found->second.add(*row);
     }
     if (base.count == 0) return {};
-    FrameModel model{base.ms / base.count, base.error / base.count, default_choices(), {}};
+    FrameModel model{base.mean(), base_choices(), {}};
     for (const auto& [choice, sum] : sums) {
-        model.effects.push_back(
-            {choice, sum.ms / sum.count - model.ms, sum.error / sum.count - model.error});
+        const FrameFigures changed = sum.mean();
+        model.effects.push_back({choice,
+                                 {changed.ms - model.base.ms, changed.bias - model.base.bias,
+                                  changed.rest - model.base.rest}});
     }
     return model;
 }
 
 Combination predict(const FrameModel& model, std::vector<AxisChoice> choices) {
-    Combination result{std::move(choices), model.ms, model.error};
+    Combination result{std::move(choices)};
+    FrameFigures sum = model.base;
+    double least = model.base.rest;
     for (const AxisChoice& choice : result.choices) {
         const auto found = std::ranges::find(model.effects, choice, &ChoiceEffect::choice);
         if (found == model.effects.end()) continue;
-        result.ms += found->ms;
-        result.error += found->error;
+        sum.ms += found->change.ms;
+        sum.bias += found->change.bias;
+        sum.rest += found->change.rest;
+        least = std::min(least, model.base.rest + found->change.rest);
     }
-    result.ms = std::max(result.ms, 0.0);
-    result.error = std::max(result.error, 0.0);
+    // Two choices that each mend the same fault mend it once.
+    sum.rest = std::max(sum.rest, least);
+    sum.bias = std::max(sum.bias, kAllDark);
+    result.ms = std::max(sum.ms, 0.0);
+    result.error = sum.error();
     return result;
 }
 
 std::vector<Combination> combinations(const FrameModel& model) {
     std::vector<std::vector<AxisChoice>> all = {{}};
-    for (const AxisChoice& usual : model.defaults) {
+    for (const AxisChoice& usual : model.choices) {
         std::vector<AxisChoice> here = {usual};
         for (const ChoiceEffect& effect : model.effects) {
             if (effect.choice.axis == usual.axis) here.push_back(effect.choice);

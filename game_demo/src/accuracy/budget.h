@@ -20,21 +20,35 @@ struct AxisChoice {
 /// "shadow=none", "opacity=dither detail=0.5".
 std::string text(const AxisChoice& choice);
 
-/// What a choice changes about the frame of defaults. The effects of several add up.
-struct ChoiceEffect {
-    AxisChoice choice;
+/// What frames are measured around: the demo's defaults, but with the techniques that come closest
+/// (`series_b`, `dual`), because effects add up best where they are small.
+std::vector<AxisChoice> base_choices();
+
+/// Time and error of a frame, the error in two parts that add up over choices: how much too bright
+/// the hair is as a whole (light of different origin is a sum), and the square of what is left of
+/// the error without that.
+struct FrameFigures {
     double ms = 0.0;
-    double error = 0.0;
+    double bias = 0.0;
+    double rest = 0.0;
+
+    /// √(bias² + rest): relative L1.
+    [[nodiscard]] double error() const;
 };
 
-/// A frame as measured: that of defaults, and what each choice on each axis does to it.
+/// What a choice changes about the base. The effects of several add up.
+struct ChoiceEffect {
+    AxisChoice choice;
+    FrameFigures change;
+};
+
+/// A frame as measured: the base, and what each choice on each axis does to it.
 struct FrameModel {
-    double ms = 0.0;
-    double error = 0.0;
-    std::vector<AxisChoice> defaults;  ///< by axis
+    FrameFigures base;
+    std::vector<AxisChoice> choices;  ///< of the base, by axis
     std::vector<ChoiceEffect> effects;
 
-    [[nodiscard]] bool empty() const { return ms <= 0.0; }
+    [[nodiscard]] bool empty() const { return base.ms <= 0.0; }
 };
 
 /// From the rows of kFrameAxis with this groom and colour; where there are none, from those with
@@ -47,7 +61,7 @@ struct Combination {
     double ms = 0.0;
     double error = 0.0;
 };
-/// Time and error of these choices; what the model does not know counts as a default.
+/// Time and error of these choices; what the model does not know counts as the base.
 Combination predict(const FrameModel& model, std::vector<AxisChoice> choices);
 /// Every combination of choices the model knows.
 std::vector<Combination> combinations(const FrameModel& model);

@@ -18,6 +18,11 @@ bool is_own(const AxisChoice& choice) {
     return choice.setting.empty() || choice.setting.starts_with("detail=");
 }
 
+/// The file's name alone.
+std::string short_name(const std::string& name) {
+    return std::filesystem::path(name.substr(0, name.find(" ("))).stem().string();
+}
+
 std::string names(const std::vector<AxisChoice>& choices) {
     std::string result;
     for (const AxisChoice& choice : choices) {
@@ -29,7 +34,7 @@ std::string names(const std::vector<AxisChoice>& choices) {
 }  // namespace
 
 Result<AccuracyTable> load_accuracy_or_default(const std::filesystem::path& path) {
-    const auto ours = std::filesystem::path(VELLUS_ASSET_DIR) / "accuracy" / "accuracy.json";
+    const auto ours = std::filesystem::path(VELLUS_ASSET_DIR) / "accuracy" / "frames.json";
     return load_accuracy(path.empty() ? ours : path);
 }
 
@@ -69,8 +74,11 @@ std::vector<KnownGroom> known_grooms(World& world, const AccuracyTable& table) {
             FrameModel model = frame_model(table, kind.groom, kind.colour);
             std::erase_if(model.effects,
                           [](const ChoiceEffect& effect) { return !is_own(effect.choice); });
-            known.push_back({entity, groom.name, kind, std::move(model)});
+            known.push_back(
+                {entity, short_name(groom.name), kind, groom.positions.size(), std::move(model)});
         });
+    // The one that matters most first.
+    std::ranges::stable_sort(known, std::greater{}, &KnownGroom::points);
     return known;
 }
 

@@ -40,6 +40,7 @@ struct KnownGroom {
     Entity entity;
     std::string name;
     GroomClass kind;
+    size_t points = 0;
     FrameModel model;  ///< only what is a groom's own choice: techniques, and `detail`
 };
 std::vector<KnownGroom> known_grooms(World& world, const AccuracyTable& table);

@@ -20,10 +20,10 @@ struct Spread {
 };
 Spread spread_of(std::vector<double> samples);
 
-/// The axis of rows that measure a whole frame in which one axis alone is not at its default; their
-/// technique is "AXIS=TECHNIQUE", or kDefault.
+/// The axis of rows that measure a whole frame in which one axis alone differs from base_choices();
+/// their technique is "AXIS=TECHNIQUE", or kBase.
 constexpr const char* kFrameAxis = "frame";
-constexpr const char* kDefault = "default";
+constexpr const char* kBase = "base";
 
 /// One technique at one setting in one picture: how far off it was, and what it took.
 struct AccuracyRow {

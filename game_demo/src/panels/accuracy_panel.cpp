@@ -30,14 +30,14 @@ std::vector<Combination> front_of(const FrameModel& model) {
     return front;
 }
 
-/// Choices that are not the defaults, or "default".
+/// Choices that are not the base's, or "base".
 std::string short_name(const Combination& combination, const FrameModel& model) {
     std::string name;
     for (const AxisChoice& choice : combination.choices) {
-        if (std::ranges::find(model.defaults, choice) != model.defaults.end()) continue;
+        if (std::ranges::find(model.choices, choice) != model.choices.end()) continue;
         name.append(name.empty() ? "" : ", ").append(text(choice));
     }
-    return name.empty() ? kDefault : name;
+    return name.empty() ? kBase : name;
 }
 
 /// Milliseconds and error to the window's pixels.
@@ -70,6 +70,7 @@ void draw_grid(ImDrawList& list, const Plot& plot) {
     for (double ms = 0.0; ms <= plot.most_ms; ms += step_for(plot.most_ms)) {
         const float x = plot.at(ms, 0.0).x;
         list.AddLine({x, plot.low.y}, {x, plot.high.y}, kGrid);
+        if (x + 44.0f > plot.high.x) continue;
         label({x + 2.0f, plot.high.y + 2.0f}, fmt::format("{:.3g} ms", ms));
     }
     for (double error = 0.0; error <= plot.most_error; error += step_for(plot.most_error)) {
@@ -115,8 +116,9 @@ void AccuracyPanel::chart(const Curve& curve, World& world, double hair_ms, doub
     plot.most_ms = scale * now.ms;
     plot.most_error = now.error;
     for (const ChoiceEffect& effect : model.effects) {
-        plot.most_ms = std::max(plot.most_ms, scale * (model.ms + effect.ms));
-        plot.most_error = std::max(plot.most_error, model.error + effect.error);
+        const Combination one = predict(model, {effect.choice});
+        plot.most_ms = std::max(plot.most_ms, scale * one.ms);
+        plot.most_error = std::max(plot.most_error, one.error);
     }
     plot.most_ms *= 1.1;
     plot.most_error *= 1.15;

@@ -33,7 +33,7 @@ void add_choice_options(CLI::App& app, AccuracyOptions& options) {
     add_list(app, "--colours", options.colours, strings(kColours), "Only these hair colours");
     add_list(app, "--lights", options.lights, strings(kLights), "Only light from there");
     add_list(app, "--techniques", options.techniques, {},
-             "Only these techniques, on every axis (default and AXIS=TECHNIQUE on axis frame)");
+             "Only these techniques, on every axis (base and AXIS=TECHNIQUE on axis frame)");
     app.add_flag("--list", options.list, "Print the jobs and end");
     app.add_option_function<std::string>(
            "--shard",

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "game_demo/src/accuracy/table.h"
+#include "game_demo/src/accuracy/budget.h"
 #include "modules/hair/techniques.h"
 
 namespace vellus::demo {
@@ -65,18 +65,20 @@ std::vector<Variant> variants_of_axis(std::string_view axis, bool quick) {
     return variants;
 }
 
-/// The frame of defaults, and every change of one axis that a frame's time or error may feel.
+/// The base, and every change of one axis that a frame's time or error may feel.
 std::vector<Variant> variants_of_frame(bool quick) {
-    std::vector<Variant> variants = {{kDefault, ""}};
-    for (const std::string_view axis : hair::axes()) {
-        const auto usual = hair::technique_id(hair::HairTechniques{}, axis);
+    std::vector<Variant> variants = {{kBase, ""}};
+    for (const AxisChoice& usual : base_choices()) {
+        const std::string& axis = usual.axis;
         for (const auto& [technique, setting] : variants_of_axis(axis, true)) {
-            if (technique == usual && setting.empty()) continue;
-            if (quick && axis == "opacity" && setting == "taa=off" && technique != usual) continue;
+            if (technique == usual.technique && setting.empty()) continue;
+            if (quick && axis == "opacity" && setting == "taa=off" &&
+                technique != usual.technique) {
+                continue;
+            }
             variants.emplace_back(fmt::format("{}={}", axis, technique), setting);
         }
-        if (axis == "opacity")
-            variants.emplace_back(fmt::format("{}={}", axis, usual), "detail=0.25");
+        if (axis == "opacity") variants.emplace_back("opacity=" + usual.technique, "detail=0.25");
     }
     return variants;
 }

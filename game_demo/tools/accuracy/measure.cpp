@@ -187,7 +187,7 @@ Result<AccuracyRow> Measure::run(const Job& job) {
 
 Result<Combination> Measure::run_combination(const Subject& subject,
                                              std::vector<AxisChoice> choices) {
-    const Job job{subject, kFrameAxis, kDefault, "", false};
+    const Job job{subject, kFrameAxis, kBase, "", false};
     auto reference = references_.find(job);
     if (!reference) return reference.error();
     auto groom = references_.groom(subject.groom);

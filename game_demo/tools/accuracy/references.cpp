@@ -100,6 +100,7 @@ FrameRun frame_run(const Job& job, const JobSizes& sizes) {
         run.choices = {{"multiple", "none", ""}};
     }
     if (job.axis == "scattering") run.choices = {{"multiple", "none", ""}};
+    if (job.axis == kFrameAxis) run.choices = base_choices();
     if (job.axis == "multiple") run.choices = {{"scattering", "series_b", ""}};
     if (const AxisChoice choice = choice_of(job); !choice.axis.empty()) {
         run.choices.push_back(choice);

@@ -147,9 +147,19 @@ std::string to_html(const AccuracyTable& table, const fs::path& folder) {
     return page;
 }
 
+AccuracyTable frames_alone(const AccuracyTable& table) {
+    AccuracyTable frames = table;
+    std::erase_if(frames.rows, [](const AccuracyRow& row) { return row.axis != kFrameAxis; });
+    for (AccuracyRow& row : frames.rows) row.pictures = {};
+    return frames;
+}
+
 Result<void> write_reports(const fs::path& folder, const AccuracyTable& table) {
     if (auto done = write_file(folder / "accuracy.csv", to_csv(table)); !done) return done;
     if (auto done = write_file(folder / "accuracy.json", to_json(table)); !done) return done;
+    if (auto done = write_file(folder / "frames.json", to_json(frames_alone(table))); !done) {
+        return done;
+    }
     return write_file(folder / "accuracy.html", to_html(table, folder));
 }
 

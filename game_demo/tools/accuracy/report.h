@@ -14,7 +14,10 @@ std::string escape_html(std::string_view text);
 /// JSON that nothing in it can end the script element it stands in.
 std::string escape_script(std::string json);
 
-/// FOLDER/accuracy.csv, accuracy.json and accuracy.html.
+/// The rows of kFrameAxis without pictures: all that the demo needs.
+AccuracyTable frames_alone(const AccuracyTable& table);
+
+/// FOLDER/accuracy.csv, accuracy.json, frames.json (of frames_alone()) and accuracy.html.
 Result<void> write_reports(const std::filesystem::path& folder, const AccuracyTable& table);
 
 }  // namespace vellus::demo

@@ -104,6 +104,9 @@ TEST(AccuracyMerge, PartsBecomeTheWholeFolder) {
     const auto read = load_accuracy(options.out / "accuracy.json");
     ASSERT_TRUE(read);
     EXPECT_EQ(read->rows.size(), 2u);
+    const auto frames = load_accuracy(options.out / "frames.json");
+    ASSERT_TRUE(frames);
+    EXPECT_TRUE(frames->rows.empty()) << "there was no whole frame";
     options.merge.push_back(folder.path() / "three");
     const auto missing = merge(options);
     ASSERT_FALSE(missing);

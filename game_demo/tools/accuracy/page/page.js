@@ -9,7 +9,7 @@ const ABOUT = {
   scattering: "Light scattered once, against the technique deon (energy-conserving, integrated in the shader), same frames otherwise.",
   multiple: "Light of a sun, against a path tracer that follows it as often as it scatters.",
   environment: "Light of the sky alone, against a path tracer.",
-  frame: "Sun and sky, everything at its default but one axis, against a path tracer.",
+  frame: "Sun and sky, against a path tracer. One axis at a time differs from the base: the demo's defaults, but series_b and dual.",
 };
 const COLUMNS = [
   ["name", "technique", (p) => p.name],
