@@ -108,6 +108,9 @@ def check_requests(browser):
         message = json.loads(entry["message"])["message"]
         if message["method"] not in ("Network.requestWillBeSent", "Network.webSocketCreated"):
             continue
+        # The browser's own empty tab may still be loading.
+        if message["params"].get("documentURL", "").startswith("chrome://"):
+            continue
         url = message["params"].get("request", message["params"])["url"]
         check(url.startswith(("file://", "data:")), f"the page asked for {url}")
     complaints = [e["message"] for e in browser.get_log("browser") if e["level"] == "SEVERE"]

@@ -24,6 +24,7 @@ constexpr ImU32 kBudget = IM_COL32(120, 200, 140, 160);
 std::vector<Combination> front_of(const FrameModel& model) {
     const auto all = combinations(model);
     std::vector<CostAndError> points;
+    points.reserve(all.size());
     for (const Combination& each : all) points.push_back({each.ms, each.error});
     std::vector<Combination> front;
     for (const size_t i : pareto_front(points)) front.push_back(all[i]);
@@ -67,13 +68,17 @@ void draw_grid(ImDrawList& list, const Plot& plot) {
     const auto label = [&](ImVec2 at, const std::string& words) {
         list.AddText(at, kSoft, words.data(), words.data() + words.size());
     };
-    for (double ms = 0.0; ms <= plot.most_ms; ms += step_for(plot.most_ms)) {
+    const double ms_step = step_for(plot.most_ms);
+    for (int i = 0; i * ms_step <= plot.most_ms; ++i) {
+        const double ms = i * ms_step;
         const float x = plot.at(ms, 0.0).x;
         list.AddLine({x, plot.low.y}, {x, plot.high.y}, kGrid);
         if (x + 44.0f > plot.high.x) continue;
         label({x + 2.0f, plot.high.y + 2.0f}, fmt::format("{:.3g} ms", ms));
     }
-    for (double error = 0.0; error <= plot.most_error; error += step_for(plot.most_error)) {
+    const double error_step = step_for(plot.most_error);
+    for (int i = 0; i * error_step <= plot.most_error; ++i) {
+        const double error = i * error_step;
         const float y = plot.at(0.0, error).y;
         list.AddLine({plot.low.x, y}, {plot.high.x, y}, kGrid);
         label({plot.low.x + 2.0f, y - 14.0f}, fmt::format("{:.0f} %", 100.0 * error));
