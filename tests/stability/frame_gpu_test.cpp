@@ -159,7 +159,8 @@ TEST_F(Frames, LightsThatAreNoneAreBlack) {
         double lit = 0.0;
         const Pixels picture = sunlit(device(), color, intensity);
         for (const glm::vec4& p : picture) lit += p.r == 0.0f && p.g == 0.0f && p.b == 0.0f ? 0 : 1;
-        worst.add(lit, [&] { return fmt::format("colour {} x {}", color.x, intensity); });
+        worst.add(lit,
+                  [&, c = color.x, i = intensity] { return fmt::format("colour {} x {}", c, i); });
     }
     worst.report("light", "no, negative or NaN light: lit pixels", 0.0);
 }
@@ -283,8 +284,9 @@ TEST_F(Frames, FourMillionStrandsAreDrawn) {
     groom.strand_begin.reserve(kStrands + 1);
     for (size_t s = 0; s < kStrands; ++s) {
         // A grid of 2050 x 2049 strands, each a thousandth as long as the picture is high.
+        const size_t row = s / 2050;
         const auto x = static_cast<float>(s % 2050) / 2050.0f - 0.5f;
-        const auto y = static_cast<float>(s / 2050) / 2049.0f - 0.5f;
+        const auto y = static_cast<float>(row) / 2049.0f - 0.5f;
         const glm::vec3 root(0.8f * x, 0.8f * y, -1.0f);
         for (int i = 0; i < 3; ++i) {
             groom.points.push_back(root + glm::vec3(0.0004f * static_cast<float>(i), 0, 0));
