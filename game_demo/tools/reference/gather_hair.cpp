@@ -106,6 +106,8 @@ hair::tracer::Groom make_groom(const StrandData& strands, const hair::LibraryGro
     groom.roughness = material.roughness;
     groom.tilt = material.shift;
     groom.specular = material.specular;
+    groom.eta = material.eta;
+    groom.azimuthal = material.azimuthal;
     groom.alpha = material.alpha;
     return groom;
 }

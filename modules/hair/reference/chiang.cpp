@@ -51,9 +51,9 @@ ChiangFibre chiang_fibre(const glm::dvec3& sigma_a, double beta_m, double beta_n
     const double root = 0.726 * beta_m + 0.812 * beta_m * beta_m + 3.7 * std::pow(beta_m, 20.0);
     const double v = std::max(root * root, kMinVariance);
     fibre.variance = {v, std::max(0.25 * v, kMinVariance), 4.0 * v, 4.0 * v};
-    fibre.azimuthal_scale =
+    fibre.azimuthal_scale.fill(
         std::sqrt(kPi / 8.0) *
-        std::max(0.265 * beta_n + 1.194 * beta_n * beta_n + 5.372 * std::pow(beta_n, 22.0), 1e-3);
+        std::max(0.265 * beta_n + 1.194 * beta_n * beta_n + 5.372 * std::pow(beta_n, 22.0), 1e-3));
     return fibre;
 }
 
@@ -64,6 +64,7 @@ ChiangFibre chiang_from_karis(const glm::dvec3& base_color, double roughness, do
     const auto variance = [](double b) { return std::max(b * b, kMinVariance); };
     fibre.variance = {variance(beta), variance(0.5 * beta), variance(2.0 * beta),
                       variance(2.0 * beta)};
+    fibre.azimuthal_scale = {0.1, kKarisScaleTt, kKarisScaleTrt};
     fibre.tilt = tilt;
     return fibre;
 }
@@ -114,7 +115,7 @@ glm::dvec3 ChiangScattering::albedo() const {
 double ChiangScattering::lobe(int p, Inclination i, double phi) const {
     const double m = longitudinal_deon(variance_[p], i, tilted_[p]);
     if (p == kChiangLobes - 1) return m * (0.5 / kPi);
-    return m * trimmed_logistic(std::remainder(phi - center_[p], 2.0 * kPi), scale_);
+    return m * trimmed_logistic(std::remainder(phi - center_[p], 2.0 * kPi), scale_[p]);
 }
 
 glm::dvec3 ChiangScattering::evaluate(Inclination i, double phi) const {
@@ -150,7 +151,7 @@ ChiangScattering::Sample ChiangScattering::sample(const glm::dvec4& u) const {
     s.i.cos = std::sqrt(1.0 - s.i.sin * s.i.sin);
     s.phi = p == kChiangLobes - 1
                 ? 2.0 * kPi * (u.w - 0.5)
-                : std::remainder(center_[p] + sample_trimmed_logistic(u.w, scale_), 2.0 * kPi);
+                : std::remainder(center_[p] + sample_trimmed_logistic(u.w, scale_[p]), 2.0 * kPi);
     s.pdf = pdf(s.i, s.phi);
     if (s.pdf > 0.0) s.weight = evaluate(s.i, s.phi) / s.pdf;
     return s;

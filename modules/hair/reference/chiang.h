@@ -16,7 +16,8 @@ struct ChiangFibre {
     glm::dvec3 sigma_a{0.0};  ///< absorption per fibre radius, linear RGB
     double eta = 1.55;
     std::array<double, kChiangLobes> variance{};  ///< longitudinal v of each lobe, > 0
-    double azimuthal_scale = 0.1;                 ///< s of the logistic distribution, radians
+    /// s of the logistic distributions of R, TT and TRT, radians.
+    std::array<double, kChiangLobes - 1> azimuthal_scale{0.1, 0.1, 0.1};
     double tilt = 0.0;      ///< of the cuticle, radians; as `shift` in karis.glsl
     double specular = 1.0;  ///< factor on R; 1 is physical
 };
@@ -24,9 +25,12 @@ struct ChiangFibre {
 /// Perceptual roughnesses beta_m (along) and beta_n (around) in [0, 1]: eq. 7 and 8.
 ChiangFibre chiang_fibre(const glm::dvec3& sigma_a, double beta_m, double beta_n);
 
+/// Scales of the logistics that Karis's fits of TT and TRT stand for, radians.
+constexpr double kKarisScaleTt = 0.35;
+constexpr double kKarisScaleTrt = 0.15;
+
 /// The parameters of karis.glsl: C = e^(-4 sigma_a) (melanin.glsl), β = r², r²/2, 2 r² in R, TT,
-/// TRT. Karis's azimuthal fits are fixed; they come closest to Chiang's distribution at its scale
-/// 0.1 (L1 distance in TRT 4 to 23 % at θd <= 0.5; 0.05 and 0.2 are off by 32 to 44 %).
+/// TRT, his azimuthal scales there. His R has none; 0.1 leaves its smooth lobe as it is.
 ChiangFibre chiang_from_karis(const glm::dvec3& base_color, double roughness, double tilt);
 
 /// Near-field scattering for one incoming ray: where it hits the fibre's width and how steeply.
@@ -64,7 +68,7 @@ class ChiangScattering {
     [[nodiscard]] double lobe(int p, Inclination i, double phi) const;
 
     std::array<double, kChiangLobes> variance_;
-    double scale_;
+    std::array<double, kChiangLobes - 1> scale_;
     std::array<Inclination, kChiangLobes> tilted_{};  // the eye's, turned by the cuticle
     std::array<double, kChiangLobes> center_{};       // azimuth of the undisturbed ray
     std::array<glm::dvec3, kChiangLobes> attenuation_{};

@@ -32,6 +32,9 @@ double largest(const glm::dvec3& c) {
 
 reference::ChiangFibre fibre_of(const Groom& groom, const glm::dvec3& color) {
     auto fibre = reference::chiang_from_karis(color, groom.roughness, groom.tilt);
+    fibre.eta = groom.eta;
+    fibre.azimuthal_scale[1] *= groom.azimuthal;
+    fibre.azimuthal_scale[2] *= groom.azimuthal;
     fibre.specular = groom.specular;
     return fibre;
 }

@@ -32,8 +32,8 @@ void add(Hasher& h, const Groom& g) {
     h.column(g.segment_point);
     h.column(g.segment_strand);
     h.column(g.segment_tint);
-    h.value(g.base_color, g.tip_color, g.gradient_start, g.roughness, g.tilt, g.specular, g.alpha,
-            g.light.hair_shadow, g.light.multiple, g.light.environment);
+    h.value(g.base_color, g.tip_color, g.gradient_start, g.roughness, g.tilt, g.specular, g.eta,
+            g.azimuthal, g.alpha, g.light.hair_shadow, g.light.multiple, g.light.environment);
 }
 
 void add(Hasher& h, const Mesh& m) {

@@ -41,6 +41,8 @@ struct Groom {
     float roughness = 0.3f;
     float tilt = 0.0f;  ///< radians
     float specular = 1.0f;
+    float eta = 1.55f;
+    float azimuthal = 1.0f;  ///< factor on the azimuthal widths of TT and TRT
     float alpha = 1.0f;
     GroomLight light;
 };

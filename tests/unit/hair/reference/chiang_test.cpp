@@ -1,4 +1,5 @@
 #include "modules/hair/reference/chiang.h"
+#include "modules/hair/reference/fibre.h"
 
 #include <gtest/gtest.h>
 
@@ -279,6 +280,30 @@ TEST(Chiang, KarisParametersGiveHisWidthsAndAbsorption) {
     const double f = fresnel_dielectric(1.0, fibre.eta);
     EXPECT_NEAR(s.attenuation()[1].x, std::sqrt(0.5) * (1 - f) * (1 - f), 1e-12);
     EXPECT_NEAR(s.attenuation()[1].z, (1 - f) * (1 - f), 1e-12);
+}
+
+TEST(Chiang, KarisParametersGiveHisAzimuthalWidths) {
+    // A logistic's deviation is π s / √3; each lobe around where its ray leaves has Karis's.
+    EXPECT_NEAR(kPi * kKarisScaleTt / std::sqrt(3.0), kKarisAzimuthalTt, 1e-5);
+    EXPECT_NEAR(kPi * kKarisScaleTrt / std::sqrt(3.0), kKarisAzimuthalTrt, 1e-5);
+    const ChiangFibre fibre = chiang_from_karis(glm::dvec3(0.5), 0.4, 0.0);
+    EXPECT_DOUBLE_EQ(fibre.azimuthal_scale[1], kKarisScaleTt);
+    EXPECT_DOUBLE_EQ(fibre.azimuthal_scale[2], kKarisScaleTrt);
+    // TT and TRT sampled from a ray through the middle: mean square of the azimuth about π and 0.
+    const ChiangScattering s(fibre, 0.0, inclined(0.0));
+    constexpr int kSamples = 20'000;
+    double squares = 0.0;
+    const double r = s.attenuation()[0].x + s.attenuation()[0].y + s.attenuation()[0].z;
+    double all = 0.0;
+    for (const auto& lobe : s.attenuation()) all += lobe.x + lobe.y + lobe.z;
+    const double tt = s.attenuation()[1].x + s.attenuation()[1].y + s.attenuation()[1].z;
+    for (int i = 0; i < kSamples; ++i) {
+        const double u = (i + 0.5) / kSamples;
+        const auto sample = s.sample({(r + 0.5 * tt) / all, 0.5, 0.5, u});
+        squares += std::pow(std::remainder(sample.phi - kPi, 2.0 * kPi), 2.0) / kSamples;
+    }
+    // The tails cut off at ±π hold some 0.3 % of the square.
+    EXPECT_NEAR(std::sqrt(squares), kKarisAzimuthalTt, 0.01);
 }
 
 TEST(Chiang, LogisticIntegratesToOne) {

@@ -148,7 +148,6 @@ ColourError colour_error(const glm::vec3& color) {
     const glsl::HairSurface s{color, 0.5f, 0.4f, 1.0f, 0.035f};
     const auto fibre = fibre_of(s);
     auto chiang = reference::chiang_from_karis(color, s.roughness, std::asin(0.035));
-    chiang.azimuthal_scale = 0.35;  // the logistic behind the series' width of TT
     struct View {
         double thickness;
         reference::SlabDirection eye, light;
