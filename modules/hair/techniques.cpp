@@ -9,7 +9,7 @@ namespace vellus::hair {
 namespace {
 
 constexpr std::array<std::string_view, 2> kOpacity = {"dither", "dither_still"};
-constexpr std::array<std::string_view, 2> kShadow = {"none", "pcf_exponential"};
+constexpr std::array<std::string_view, 3> kShadow = {"none", "pcf_exponential", "deep_opacity"};
 constexpr std::array<std::string_view, 3> kMultiple = {"none", "fake_normal", "dual"};
 constexpr std::array<std::string_view, 2> kEnvironment = {"none", "sh"};
 

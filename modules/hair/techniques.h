@@ -11,7 +11,7 @@
 namespace vellus::hair {
 
 enum class OpacityTechnique : uint8_t { kDither, kDitherStill };
-enum class ShadowTechnique : uint8_t { kNone, kPcfExponential };
+enum class ShadowTechnique : uint8_t { kNone, kPcfExponential, kDeepOpacity };
 /// In the order of shaders/hair/scattering/scattering.glsl; add_scattering makes further values.
 enum class ScatteringTechnique : uint8_t {
     kKaris,

@@ -28,10 +28,13 @@ struct PunctualLight {
     float opaque_texel = 0.0f;
     float opaque_range = 0.0f;
     uint32_t opaque_size = 0;
-    uint32_t padding = 0;
+    uint32_t layers_size = 0;
     uint64_t hair_depth = 0;
+    uint64_t hair_layers = 0;
+    float layers_span = 0.0f;
+    uint32_t padding = 0;
 };
-static_assert(sizeof(PunctualLight) == 216);
+static_assert(sizeof(PunctualLight) == 232);
 
 /// Mirrors the buffer Lights of shaders/light/lights.glsl (scalar layout).
 struct LightBlock {
@@ -41,6 +44,6 @@ struct LightBlock {
     uint32_t opaque_casters = 0;
     std::array<PunctualLight, kMaxLights> light{};
 };
-static_assert(sizeof(LightBlock) == 120 + 4 * 216);
+static_assert(sizeof(LightBlock) == 120 + 4 * 232);
 
 }  // namespace vellus::light

@@ -30,8 +30,11 @@ struct PunctualLight {
     float opaque_texel;
     float opaque_range;
     uint opaque_size;
-    uint padding;
+    uint layers_size;       // texels along a side of hair_layers
     HairDepths hair_depth;  // reversed depth of the closest hair, float bits, row by row; 0: no hair
+    HairDepths hair_layers;  // optical depth by layer (hair/shadow/deep_opacity.glsl); 0: none
+    float layers_span;       // metres from the first layer to the last one's end
+    uint padding;
 };
 
 struct LightBlock {

@@ -16,7 +16,6 @@ using graph::PassContext;
 using graph::PassKind;
 
 constexpr uint32_t kProjectGroupSize = 64;
-constexpr uint32_t kTriangleGroupSize = 64;
 
 /// Push constants of shaders/hair/cards/project.comp.glsl.
 struct CardProjectPush {
@@ -89,15 +88,21 @@ uint32_t project_threads(const CardBuffers& cards) {
     return cards.ribbons ? cards.point_count / 3 : cards.point_count;
 }
 
-/// Threads for each triangle of a groom that takes this many pixels: one for eight rows of them.
-uint32_t threads_of(const CardBuffers& cards, glm::ivec2 pixels) {
+bool make_projection(CardPipelines& pipelines, scene::RenderFrame& frame) {
+    return frame.compute(pipelines.project, [] {
+        return info("hair/cards/project.comp.glsl", sizeof(CardProjectPush));
+    });
+}
+
+}  // namespace
+
+uint32_t threads_per_card_triangle(const CardBuffers& cards, glm::ivec2 pixels) {
     const uint32_t rows = std::max(cards.triangle_count / std::max(2 * cards.card_count, 1U), 1U);
     const int height = std::max(pixels.x, pixels.y) / static_cast<int>(rows);
     return std::clamp(std::bit_ceil(static_cast<uint32_t>(height / 8)), 1U, 32U);
 }
 
-/// About how many pixels a groom takes of a picture; all where it reaches behind the eye.
-glm::ivec2 pixels_of(const CardBuffers& cards, const glm::dmat4& to_clip, glm::ivec2 size) {
+glm::ivec2 card_pixels(const CardBuffers& cards, const glm::dmat4& to_clip, glm::ivec2 size) {
     const glm::dvec4 center = to_clip * glm::dvec4(glm::dvec3(cards.ball), 1.0);
     const glm::dmat4 rows = glm::transpose(to_clip);
     const auto radius = static_cast<double>(cards.ball.w);
@@ -108,14 +113,6 @@ glm::ivec2 pixels_of(const CardBuffers& cards, const glm::dmat4& to_clip, glm::i
         glm::dvec2(glm::length(glm::dvec3(rows[0])), glm::length(glm::dvec3(rows[1])));
     return glm::ivec2(glm::min(across, glm::dvec2(1.0)) * glm::dvec2(size));
 }
-
-bool make_projection(CardPipelines& pipelines, scene::RenderFrame& frame) {
-    return frame.compute(pipelines.project, [] {
-        return info("hair/cards/project.comp.glsl", sizeof(CardProjectPush));
-    });
-}
-
-}  // namespace
 
 void describe_card_projection(HairFrame& hair, CardPipelines& pipelines,
                               scene::RenderFrame& frame) {
@@ -166,7 +163,8 @@ graph::BufferHandle describe_card_visibility(const HairFrame& hair, CardPipeline
         for (const HairDraw& draw : draws) {
             if (draw.cards == nullptr) continue;
             commands.bind(draw.opacity == OpacityTechnique::kDither ? *moving : *still);
-            const uint32_t threads = threads_of(*draw.cards, draw.rect.end - draw.rect.first);
+            const uint32_t threads =
+                threads_per_card_triangle(*draw.cards, draw.rect.end - draw.rect.first);
             commands.push(CardVisibilityPush{
                 .cards = draw.cards->set.address(),
                 .vertices = context.address(vertices) + draw.first_card_point * kCardVertexBytes,
@@ -183,14 +181,14 @@ graph::BufferHandle describe_card_visibility(const HairFrame& hair, CardPipeline
     return target;
 }
 
-graph::BufferHandle describe_card_shadow(const HairFrame& hair, const light::LightSet& lights,
-                                         uint32_t index, CardPipelines& pipelines,
-                                         scene::RenderFrame& frame, graph::BufferHandle map) {
+CardShadow describe_card_shadow(const HairFrame& hair, const light::LightSet& lights,
+                                uint32_t index, CardPipelines& pipelines, scene::RenderFrame& frame,
+                                graph::BufferHandle map) {
     if (!any_cards(hair.casters) || !make_projection(pipelines, frame) ||
         !frame.compute(pipelines.shadow_depth, [] {
             return info("hair/cards/shadow_depth.comp.glsl", sizeof(CardShadowPush));
         })) {
-        return map;
+        return {map, {}};
     }
     uint64_t points = 0;
     for (const HairDraw& draw : hair.casters) {
@@ -229,8 +227,8 @@ graph::BufferHandle describe_card_shadow(const HairFrame& hair, const light::Lig
         VkDeviceAddress source = context.address(vertices);
         for (const HairDraw& draw : casters) {
             if (draw.cards == nullptr) continue;
-            const uint32_t threads = threads_of(
-                *draw.cards, pixels_of(*draw.cards, to_hair * draw.world, glm::ivec2(size)));
+            const uint32_t threads = threads_per_card_triangle(
+                *draw.cards, card_pixels(*draw.cards, to_hair * draw.world, glm::ivec2(size)));
             commands.push(CardShadowPush{.cards = draw.cards->set.address(),
                                          .vertices = source,
                                          .target = target,
@@ -242,7 +240,7 @@ graph::BufferHandle describe_card_shadow(const HairFrame& hair, const light::Lig
             source += draw.cards->point_count * kCardVertexBytes;
         }
     });
-    return map;
+    return {map, vertices};
 }
 
 }  // namespace vellus::hair

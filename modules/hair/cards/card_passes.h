@@ -25,10 +25,22 @@ void describe_card_projection(HairFrame& hair, CardPipelines& pipelines, scene::
 graph::BufferHandle describe_card_visibility(const HairFrame& hair, CardPipelines& pipelines,
                                              scene::RenderFrame& frame, graph::BufferHandle target);
 
+/// A light's map with cards in it, and their vertices as it sees them (invalid without cards).
+struct CardShadow {
+    graph::BufferHandle map;
+    graph::BufferHandle vertices;
+};
+
 /// Passes "hair/cards_shadow_project" and "hair/cards_shadow_depth": cards into the map of light
 /// `index`.
-graph::BufferHandle describe_card_shadow(const HairFrame& hair, const light::LightSet& lights,
-                                         uint32_t index, CardPipelines& pipelines,
-                                         scene::RenderFrame& frame, graph::BufferHandle map);
+CardShadow describe_card_shadow(const HairFrame& hair, const light::LightSet& lights,
+                                uint32_t index, CardPipelines& pipelines, scene::RenderFrame& frame,
+                                graph::BufferHandle map);
+
+/// Threads for each triangle of a groom that takes this many pixels: one for eight rows of them.
+uint32_t threads_per_card_triangle(const CardBuffers& cards, glm::ivec2 pixels);
+/// About how many pixels a groom takes of a picture; all where it reaches behind the eye.
+glm::ivec2 card_pixels(const CardBuffers& cards, const glm::dmat4& to_clip, glm::ivec2 size);
+constexpr uint32_t kTriangleGroupSize = 64;
 
 }  // namespace vellus::hair

@@ -116,11 +116,23 @@ HairDraw describe_draw(const LibraryGroom& groom, const StrandLevel& level, cons
             .alpha = material.alpha,
             .opacity = techniques.opacity,
             .primitives = groom.cards ? groom.cards.triangle_count : level.segments,
-            .shadowed = techniques.shadow == ShadowTechnique::kPcfExponential,
+            .shadow = techniques.shadow,
             .environment_lit = techniques.environment == EnvironmentTechnique::kSh,
             .scattering = techniques.scattering,
             .multiple = techniques.multiple,
             .optics = fibre_optics(material)};
+}
+
+/// Diameter of its strands in the world, halfway from root to tip.
+float mean_width(const HairDraw& draw, const LibraryGroom& groom) {
+    return (draw.width > 0.0f ? draw.width : groom.width) * draw.scale *
+           (0.5f + 0.5f * draw.tip_scale);
+}
+
+float longest_side(const scene::Box& box) {
+    if (box.empty()) return 0.0f;
+    const glm::dvec3 size = box.max - box.min;
+    return static_cast<float>(std::max({size.x, size.y, size.z}));
 }
 
 HairInstance describe_instance(const LibraryGroom& groom, const HairMaterial& material,
@@ -223,7 +235,8 @@ void gather_hair(HairQuery hair, Res<const HairLibrary> library, Res<const HairB
     frame->casters.clear();
     frame->effects.clear();
     frame->deforms.clear();
-    frame->projected = frame->card_vertices = frame->visibility = {};
+    frame->projected = frame->card_vertices = frame->layers = frame->visibility = {};
+    frame->largest_caster = 0.0f;
     frame->points = frame->card_points = frame->segments = 0;
     const scene::View& v = view->view;
     const glm::dvec3 camera = view->pose.position;
@@ -259,10 +272,14 @@ void gather_hair(HairQuery hair, Res<const HairLibrary> library, Res<const HairB
             draw.world = previous_world = glm::translate(glm::dmat4(1.0), deform->anchor);
             frame->deforms.push_back(*deform);
         }
-        if (casts) frame->casters.push_back(draw);
+        if (casts) {
+            frame->casters.push_back(draw);
+            frame->largest_caster = std::max(frame->largest_caster, longest_side(bounds.box));
+        }
         if (!effects.drawn) return;
 
         HairInstance instance = describe_instance(groom, material, shadow, effects.techniques);
+        instance.width = mean_width(draw, groom);
         instance.to_relative = affine(draw.world, camera);
         instance.to_clip = v.view_projection_unjittered * instance.to_relative;
         instance.previous_to_clip = v.previous_view_projection * affine(previous_world, camera);

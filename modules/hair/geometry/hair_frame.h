@@ -44,8 +44,10 @@ struct HairInstance {
     float shift;
     float shadow_falloff;
     float shadow_first;
+    float width;
+    uint32_t padding;
 };
-static_assert(sizeof(HairInstance) == 320);
+static_assert(sizeof(HairInstance) == 328);
 
 /// A rectangle of pixels, `end` not included.
 struct PixelRect {
@@ -87,7 +89,7 @@ struct HairDraw {
     uint32_t first_point = 0;
     uint32_t first_card_point = 0;
     uint32_t primitives = 0;  ///< segments, or triangles of cards
-    bool shadowed = false;
+    ShadowTechnique shadow = ShadowTechnique::kNone;
     bool environment_lit = false;
     ScatteringTechnique scattering = ScatteringTechnique::kKaris;
     MultipleTechnique multiple = MultipleTechnique::kFakeNormal;
@@ -129,6 +131,7 @@ struct HairFrame {
     std::vector<HairDraw> casters;        ///< grooms that shadow, in view or not
     std::vector<HairEffects> effects;     ///< all grooms
     std::vector<HairDeform> deforms;      ///< drawn or casting grooms with points of their own
+    float largest_caster = 0.0f;          ///< metres, longest side of the largest caster's box
     uint32_t points = 0;
     uint32_t card_points = 0;
     uint32_t segments = 0;                           ///< and triangles of cards
@@ -137,6 +140,7 @@ struct HairFrame {
     graph::BufferHandle deformed;                    ///< points of `deforms`; invalid without any
     graph::BufferHandle projected;                   ///< of this frame's graph, as the next
     graph::BufferHandle card_vertices;
+    graph::BufferHandle layers;      ///< of deep_opacity, all lights; invalid where none looks
     graph::BufferHandle visibility;  ///< closest segment of each pixel
 };
 

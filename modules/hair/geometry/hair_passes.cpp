@@ -86,6 +86,9 @@ void assign_hair_shadows(Res<const HairFrame> hair, Res<light::LightSet> lights,
         light.hair_depth = next;
         next += uint64_t{4} * light.hair_size * light.hair_size;
     }
+    if (!wants_layers(*hair)) return;
+    auto assigned = assign_layers(*hair, *lights, *frame->device, maps->layers);
+    if (!assigned) frame->fail(assigned.error());
 }
 
 void describe_hair_projection(Res<HairFrame> hair, Res<HairPipelines> pipelines,
@@ -168,9 +171,41 @@ graph::BufferHandle describe_light_projection(const HairFrame& hair, const light
     return projected;
 }
 
+/// Closest strand of each texel of one light's map.
+graph::BufferHandle describe_strand_shadow(const HairFrame& hair, const light::PunctualLight& light,
+                                           graph::BufferHandle projected,
+                                           const HairPipelines& pipelines,
+                                           scene::RenderFrame& frame, graph::BufferHandle map) {
+    auto pass = frame.graph.add_pass("hair/shadow_depth", PassKind::kCompute);
+    pass.read(projected, Access::kStorageRead);
+    map = pass.write(map, Access::kStorageReadWrite);
+    pass.execute([casters = std::span<const HairDraw>(hair.casters), projected,
+                  target = light.hair_depth, size = light.hair_size,
+                  pipeline = pipelines.shadow_depth](PassContext& context) {
+        gpu::CommandBuffer& commands = context.commands();
+        commands.bind(*pipeline);
+        VkDeviceAddress points = context.address(projected);
+        for (const HairDraw& draw : casters) {
+            if (draw.cards) continue;
+            const StrandBuffers& strands = *draw.strands;
+            commands.push(ShadowDepthPush{.projected = points,
+                                          .segment_point = strands.segment_point.address(),
+                                          .segment_strand = strands.segment_strand.address(),
+                                          .strand_seed = strands.strand_seed.address(),
+                                          .target = target,
+                                          .size = glm::ivec2(size),
+                                          .segment_count = draw.primitives,
+                                          .alpha = draw.alpha});
+            commands.dispatch_threads(draw.primitives, kStrandGroupSize);
+            points += draw.point_count * kProjectedPointBytes;
+        }
+    });
+    return map;
+}
+
 }  // namespace
 
-void describe_hair_shadows(Res<const HairFrame> hair, Res<const light::LightSet> lights,
+void describe_hair_shadows(Res<HairFrame> hair, Res<const light::LightSet> lights,
                            Res<HairShadowMaps> maps, Res<HairPipelines> pipelines,
                            Res<scene::RenderFrame> frame) {
     if (hair->casters.empty() || lights->block.tiles == 0) return;
@@ -192,36 +227,25 @@ void describe_hair_shadows(Res<const HairFrame> hair, Res<const light::LightSet>
     clear.execute([map](PassContext& context) {
         vkCmdFillBuffer(context.commands().handle(), context.buffer(map), 0, VK_WHOLE_SIZE, 0);
     });
+    const bool layered = wants_layers(*hair);
+    if (layered) {
+        hair->layers = frame->graph.import_buffer("hair layers", {maps->layers.bytes()},
+                                                  &maps->layers, Access::kStorageRead);
+    }
     for (uint32_t index = 0; index < lights->block.count; ++index) {
         const light::PunctualLight& light = lights->block.light[index];
         if (light.shadow_tile == light::kNoShadow) continue;
-        map = describe_card_shadow(*hair, *lights, index, pipelines->cards, *frame, map);
-        if (!any) continue;
-        const auto projected = describe_light_projection(*hair, *lights, index, *pipelines, *frame);
-        auto pass = frame->graph.add_pass("hair/shadow_depth", PassKind::kCompute);
-        pass.read(projected, Access::kStorageRead);
-        map = pass.write(map, Access::kStorageReadWrite);
-        pass.execute([casters = std::span<const HairDraw>(hair->casters), projected,
-                      target = light.hair_depth, size = light.hair_size,
-                      pipeline = pipelines->shadow_depth](PassContext& context) {
-            gpu::CommandBuffer& commands = context.commands();
-            commands.bind(*pipeline);
-            VkDeviceAddress points = context.address(projected);
-            for (const HairDraw& draw : casters) {
-                if (draw.cards) continue;
-                const StrandBuffers& strands = *draw.strands;
-                commands.push(ShadowDepthPush{.projected = points,
-                                              .segment_point = strands.segment_point.address(),
-                                              .segment_strand = strands.segment_strand.address(),
-                                              .strand_seed = strands.strand_seed.address(),
-                                              .target = target,
-                                              .size = glm::ivec2(size),
-                                              .segment_count = draw.primitives,
-                                              .alpha = draw.alpha});
-                commands.dispatch_threads(draw.primitives, kStrandGroupSize);
-                points += draw.point_count * kProjectedPointBytes;
-            }
-        });
+        const CardShadow cards =
+            describe_card_shadow(*hair, *lights, index, pipelines->cards, *frame, map);
+        map = cards.map;
+        graph::BufferHandle projected;
+        if (any) {
+            projected = describe_light_projection(*hair, *lights, index, *pipelines, *frame);
+            map = describe_strand_shadow(*hair, light, projected, *pipelines, *frame, map);
+        }
+        if (!layered) continue;
+        hair->layers = describe_layers(*hair, *lights, index, {map, projected, cards.vertices},
+                                       pipelines->deep, *frame, hair->layers);
     }
     frame->hair_shadows = map;
 }
@@ -271,7 +295,7 @@ graph::BufferHandle describe_visibility(const HairFrame& hair, HairPipelines& pi
 
 ShadeConstants shade_constants(const HairDraw& draw, const light::LightBlock& lights) {
     return {lights.count,
-            draw.shadowed ? 1u : 0u,
+            static_cast<uint32_t>(draw.shadow),
             draw.environment_lit ? 1u : 0u,
             lights.opaque_casters > 0 ? 1u : 0u,
             draw.deform != kNotDeformed ? 1u : 0u,
@@ -321,6 +345,7 @@ void describe_hair(Res<HairFrame> hair, Res<const light::LightSet> lights,
     if (lights->block.tiles > 0 && !hair->casters.empty()) {
         pass.read(frame->hair_shadows, Access::kStorageRead);
     }
+    if (hair->layers) pass.read(hair->layers, Access::kStorageRead);
     pass.read(frame->depth, Access::kSampledCompute);
     pass.read(frame->opaque_shadows, Access::kSampledCompute);
     frame->color = pass.write(frame->color, Access::kStorageWrite);

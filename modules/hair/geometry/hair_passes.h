@@ -6,6 +6,7 @@
 #include "modules/hair/cards/card_passes.h"
 #include "modules/hair/geometry/hair_frame.h"
 #include "modules/hair/geometry/strand_raster.h"
+#include "modules/hair/shadow/deep_opacity.h"
 #include "modules/scene/render_frame.h"
 
 namespace vellus::hair {
@@ -20,6 +21,7 @@ struct HairPipelines {
     const gpu::Pipeline* visibility_still = nullptr;
     const gpu::Pipeline* shadow_depth = nullptr;
     CardPipelines cards;
+    DeepPipelines deep;
     std::map<ShadeConstants, const gpu::Pipeline*> shade;
 };
 
@@ -27,6 +29,7 @@ struct HairPipelines {
 /// Resource.
 struct HairShadowMaps {
     gpu::Buffer depth;
+    gpu::Buffer layers;  ///< of deep_opacity (shaders/hair/shadow/deep_opacity.glsl)
 };
 
 /// System: memory for the maps of lights that shadow hair, and their addresses into the LightSet.
@@ -37,8 +40,8 @@ void assign_hair_shadows(Res<const HairFrame> hair, Res<light::LightSet> lights,
 void describe_hair_projection(Res<HairFrame> hair, Res<HairPipelines> pipelines,
                               Res<FibreLibrary> fibres, Res<scene::RenderFrame> frame);
 
-/// System: passes "hair/shadow_*", the closest hair seen from each light.
-void describe_hair_shadows(Res<const HairFrame> hair, Res<const light::LightSet> lights,
+/// System: passes "hair/shadow_*" and "hair/deep_*", the hair seen from each light.
+void describe_hair_shadows(Res<HairFrame> hair, Res<const light::LightSet> lights,
                            Res<HairShadowMaps> maps, Res<HairPipelines> pipelines,
                            Res<scene::RenderFrame> frame);
 

@@ -30,6 +30,8 @@ struct HairInstance {
     float shift;
     float shadow_falloff;  // 1/m
     float shadow_first;    // metres of hair without self-shadow, besides the map's texels
+    float width;           // of its strands on average, metres
+    uint padding;
 };
 
 /// A point of a strand under a pixel.

@@ -13,7 +13,7 @@
 // frame does not call for is compiled out.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kLightCount = 4;
-layout(constant_id = 1) const bool kShadowed = true;
+layout(constant_id = 1) const int kShadow = 1;  // as ShadowTechnique of modules/hair/techniques.h
 layout(constant_id = 2) const bool kEnvironmentLit = true;
 layout(constant_id = 3) const bool kOpaqueCasters = true;
 layout(constant_id = 5) const int kScattering = 0;
@@ -44,11 +44,12 @@ layout(binding = 7, scalar) uniform Fibre { HairFibre fibre; };
 /// Of the light, what passes the hair in front; `opaque` is what passes everything else.
 float shadow_of(PunctualLight light, vec3 position, out float opaque) {
     opaque = 1.0;
-    if (!kShadowed || light.shadow_tile == kNoShadow) return 1.0;
+    if (kShadow == 0 || light.shadow_tile == kNoShadow) return 1.0;
     float texel = shadow_texel_metres(light, light.hair_texel, light.kind == kLightSun
                                                  ? 1.0
                                                  : distance(light.position, position));
     if (kOpaqueCasters) opaque = opaque_visibility(opaque_shadows, light, position);
+    if (kShadow == 2) return deep_transmittance(light, position, hair.width);
     return hair_transmittance(light, position, hair.shadow_falloff, hair.shadow_first + texel);
 }
 

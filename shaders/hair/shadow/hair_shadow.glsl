@@ -1,6 +1,7 @@
 // How much of a punctual light passes the hair in front: PCF over exponential falloff. GLSL only.
 #ifndef VELLUS_HAIR_SHADOW_GLSL
 #define VELLUS_HAIR_SHADOW_GLSL
+#include "hair/shadow/deep_opacity.glsl"
 #include "hair/shadow/pcf_exponential.glsl"
 #include "light/lights.glsl"
 
@@ -31,6 +32,45 @@ float hair_transmittance(PunctualLight light, vec3 p, float falloff, float first
         q[i] = exponential_transmittance(metres, occluders, falloff);
     }
     return pcf_box_filter(fract(texel), q[0], q[1], q[2], q[3]);
+}
+
+/// Optical depth in one texel's layers in front of a fragment `metres` from the light. The strand that
+/// it lies on, which covers `own` of the texel, is not in front of itself.
+float deep_optical_depth(PunctualLight light, ivec2 texel, float metres, float own) {
+    uint word = uint(texel.y * int(light.layers_size) + texel.x) * kDeepWords;
+    float front = shadow_metres(light, light.hair_range, uintBitsToFloat(light.hair_layers.at[word]));
+    float before = float(light.hair_layers.at[word + kDeepBefore]);
+    float behind = metres - front;
+    if (behind <= 0.0) {
+        // How what lies before the front is spread is unknown: as over the first layer.
+        float first = 2.0 / float(kDeepLayers * (kDeepLayers + 1u)) * light.layers_span;
+        return before * saturate(1.0 + behind / first) * (1.0 / kDeepUnit);
+    }
+    DeepPlace place = deep_place(behind, light.layers_span);
+    float sum = before;
+    for (uint k = 0u; k < place.layer; ++k) sum += float(light.hair_layers.at[word + kDeepFirst + k]);
+    float layer = float(light.hair_layers.at[word + kDeepFirst + place.layer]);
+    sum += place.share * max(layer - own * kDeepUnit, 0.0);
+    return sum * (1.0 / kDeepUnit);
+}
+
+/// Transmittance in [0, 1] from the light to `p` through a deep opacity map; `width` of the strand there
+/// in metres.
+float deep_transmittance(PunctualLight light, vec3 p, float width) {
+    vec2 uv;
+    float depth;
+    if (uint64_t(light.hair_layers) == 0ul || !shadow_position(light.to_hair, p, uv, depth)) return 1.0;
+    float metres = shadow_metres(light, light.hair_range, depth);
+    float own = width / (2.0 * shadow_texel_metres(light, light.hair_texel, metres));
+    vec2 texel = uv * float(light.layers_size) - 0.5;
+    ivec2 low = max(ivec2(floor(texel)), ivec2(0));
+    ivec2 high = min(ivec2(floor(texel)) + 1, ivec2(int(light.layers_size) - 1));
+    vec2 f = fract(texel);
+    vec4 through = exp(-vec4(deep_optical_depth(light, low, metres, own),
+                             deep_optical_depth(light, ivec2(high.x, low.y), metres, own),
+                             deep_optical_depth(light, ivec2(low.x, high.y), metres, own),
+                             deep_optical_depth(light, high, metres, own)));
+    return mix(mix(through.x, through.y, f.x), mix(through.z, through.w, f.x), f.y);
 }
 
 #endif
