@@ -127,7 +127,7 @@ Result<uint32_t> add_strands(World& world, gpu::Device& device, const std::strin
 
 Result<Entity> spawn_hair(World& world, const AddGroom& add, const std::filesystem::path& path,
                           const HairExtension& look, Entity parent) {
-    HairTechniques techniques;
+    HairTechniques techniques = best_techniques();
     if (auto set = set_techniques(techniques, look.techniques); !set) return set.error();
     auto groom = add(path, look);
     if (!groom) return groom.error();

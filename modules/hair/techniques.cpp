@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<std::string_view, 2> kOpacity = {"dither", "dither_still"};
 constexpr std::array<std::string_view, 3> kShadow = {"none", "pcf_exponential", "deep_opacity"};
 constexpr std::array<std::string_view, 3> kMultiple = {"none", "fake_normal", "dual"};
-constexpr std::array<std::string_view, 2> kEnvironment = {"none", "sh"};
+constexpr std::array<std::string_view, 3> kEnvironment = {"none", "sh", "sh_depth"};
 
 constexpr std::array<std::string_view, 5> kAxes = {"opacity", "shadow", "scattering", "multiple",
                                                    "environment"};

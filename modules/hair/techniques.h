@@ -27,9 +27,10 @@ enum class ScatteringTechnique : uint8_t {
 constexpr uint32_t kScatteringTechniques = 9;
 /// In the order of shaders/hair/scattering/scattering.glsl.
 enum class MultipleTechnique : uint8_t { kNone, kFakeNormal, kDual };
-enum class EnvironmentTechnique : uint8_t { kNone, kSh };
+enum class EnvironmentTechnique : uint8_t { kNone, kSh, kShDepth };
 
-/// How a groom is drawn, one choice on each axis. Component; may change from frame to frame.
+/// How a groom is drawn, one choice on each axis. Component; may change from frame to frame. As
+/// made it is Karis's path.
 struct HairTechniques {
     OpacityTechnique opacity = OpacityTechnique::kDither;
     ShadowTechnique shadow = ShadowTechnique::kPcfExponential;
@@ -44,6 +45,14 @@ struct HairTechniques {
 Result<ScatteringTechnique> add_scattering(std::string_view id, const gpu::EmbeddedShader& shade);
 /// The stage of an added technique; null for the module's own.
 const gpu::EmbeddedShader* added_stage(ScatteringTechnique technique);
+
+/// The nearest to the path tracer that is still cheap; what files get that choose nothing.
+constexpr HairTechniques best_techniques() {
+    return {.shadow = ShadowTechnique::kDeepOpacity,
+            .scattering = ScatteringTechnique::kSeriesB,
+            .multiple = MultipleTechnique::kDual,
+            .environment = EnvironmentTechnique::kShDepth};
+}
 
 /// The axes in their order, and the ids of the techniques on one of them, in the enum's order.
 std::span<const std::string_view> axes();

@@ -365,9 +365,9 @@ const Registration kTruth(
     {"truth", "real-time hair beside the path tracer's, by groom, colour and light",
      [](CLI::App& app) -> std::function<int()> {
          auto options = std::make_shared<Options>();
-         options->with = {"scattering=karis,multiple=fake_normal",
-                          "scattering=series_b,multiple=fake_normal",
-                          "scattering=series_b,multiple=dual"};
+         options->with = {
+             "shadow=pcf_exponential,scattering=karis,multiple=fake_normal,environment=sh",
+             "shadow=deep_opacity,scattering=series_b,multiple=dual,environment=sh_depth"};
          app.add_option("--folder", options->folder,
                         "for scenes and traced pictures, which it keeps");
          app.add_option("--device", options->device, "part of its name");

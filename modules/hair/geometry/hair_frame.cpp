@@ -6,6 +6,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <optional>
 
+#include "modules/light/light_glsl.h"
+
 namespace vellus::hair {
 
 namespace {
@@ -117,7 +119,7 @@ HairDraw describe_draw(const LibraryGroom& groom, const StrandLevel& level, cons
             .opacity = techniques.opacity,
             .primitives = groom.cards ? groom.cards.triangle_count : level.segments,
             .shadow = techniques.shadow,
-            .environment_lit = techniques.environment == EnvironmentTechnique::kSh,
+            .environment = techniques.environment,
             .scattering = techniques.scattering,
             .multiple = techniques.multiple,
             .optics = fibre_optics(material)};
@@ -133,6 +135,29 @@ float longest_side(const scene::Box& box) {
     if (box.empty()) return 0.0f;
     const glm::dvec3 size = box.max - box.min;
     return static_cast<float>(std::max({size.x, size.y, size.z}));
+}
+
+/// The groom's axes as its node turns them, the environment's light along each, and how much denser
+/// or thinner than in nominal_width() the groom is drawn.
+void describe_ambient(const LibraryGroom& groom, const glm::dmat4& world, const HairWidth& width,
+                      float alpha, const light::LightBlock& lights, HairInstance& instance) {
+    light::glsl::Sh9 sh;
+    std::ranges::copy(lights.environment, sh.c);
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 axis(world[i]);
+        const double length = glm::length(axis);
+        const glm::vec3 unit = length > 0.0 ? glm::vec3(axis / length) : glm::vec3(0.0f);
+        const auto k = static_cast<size_t>(i);
+        instance.ambient_axes[k] = unit;
+        instance.ambient_light[k] = light::glsl::sh_irradiance_over_pi(sh, unit);
+        instance.ambient_light[k + 3] = light::glsl::sh_irradiance_over_pi(sh, -unit);
+    }
+    instance.ambient = groom.strands.ambient.address();
+    const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(world))));
+    const float nominal = groom.width > 0.0f ? groom.width : 1e-4f;
+    const float drawn =
+        width.root > 0.0f ? width.root / static_cast<float>(std::max(scale, 1e-12)) : nominal;
+    instance.ambient_scale = alpha * drawn / nominal * (0.5f + 0.5f * width.tip_scale);
 }
 
 HairInstance describe_instance(const LibraryGroom& groom, const HairMaterial& material,
@@ -280,6 +305,7 @@ void gather_hair(HairQuery hair, Res<const HairLibrary> library, Res<const HairB
 
         HairInstance instance = describe_instance(groom, material, shadow, effects.techniques);
         instance.width = mean_width(draw, groom);
+        describe_ambient(groom, world.matrix, width, material.alpha, lights->block, instance);
         instance.to_relative = affine(draw.world, camera);
         instance.to_clip = v.view_projection_unjittered * instance.to_relative;
         instance.previous_to_clip = v.previous_view_projection * affine(previous_world, camera);

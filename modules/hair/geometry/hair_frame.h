@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "engine/ecs/query.h"
@@ -32,6 +33,7 @@ struct HairInstance {
     VkDeviceAddress segment_strand;
     VkDeviceAddress strand_seed;
     VkDeviceAddress cards;
+    VkDeviceAddress ambient;
     uint32_t first_point;
     uint32_t flags;
     glm::vec3 base_color;
@@ -45,9 +47,12 @@ struct HairInstance {
     float shadow_falloff;
     float shadow_first;
     float width;
+    float ambient_scale;
+    std::array<glm::vec3, 3> ambient_axes;
+    std::array<glm::vec3, 6> ambient_light;
     uint32_t padding;
 };
-static_assert(sizeof(HairInstance) == 328);
+static_assert(sizeof(HairInstance) == 448);
 
 /// A rectangle of pixels, `end` not included.
 struct PixelRect {
@@ -90,7 +95,7 @@ struct HairDraw {
     uint32_t first_card_point = 0;
     uint32_t primitives = 0;  ///< segments, or triangles of cards
     ShadowTechnique shadow = ShadowTechnique::kNone;
-    bool environment_lit = false;
+    EnvironmentTechnique environment = EnvironmentTechnique::kNone;
     ScatteringTechnique scattering = ScatteringTechnique::kKaris;
     MultipleTechnique multiple = MultipleTechnique::kFakeNormal;
     FibreOptics optics;

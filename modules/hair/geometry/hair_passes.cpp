@@ -101,7 +101,7 @@ void describe_hair_projection(Res<HairFrame> hair, Res<HairPipelines> pipelines,
         const HairDraw& draw = hair->draws[i];
         const auto block = frame->uploads.push_uniform(instance);
         hair->instance_blocks.push_back(block);
-        hair->fibre_blocks.push_back(needs_fibre(draw.scattering, draw.multiple)
+        hair->fibre_blocks.push_back(needs_fibre(draw.scattering, draw.multiple, draw.environment)
                                          ? frame->uploads.push_uniform(fibres->fibre(
                                                draw.optics, instance.roughness, instance.shift))
                                          : block);
@@ -296,7 +296,7 @@ graph::BufferHandle describe_visibility(const HairFrame& hair, HairPipelines& pi
 ShadeConstants shade_constants(const HairDraw& draw, const light::LightBlock& lights) {
     return {lights.count,
             static_cast<uint32_t>(draw.shadow),
-            draw.environment_lit ? 1u : 0u,
+            static_cast<uint32_t>(draw.environment),
             lights.opaque_casters > 0 ? 1u : 0u,
             draw.deform != kNotDeformed ? 1u : 0u,
             static_cast<uint32_t>(draw.scattering),

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "modules/hair/environment/ambient_depth.h"
+
 namespace vellus::hair {
 
 namespace {
@@ -33,6 +35,8 @@ Result<StrandBuffers> StrandBuffers::upload(gpu::Device& device, const StrandDat
         upload_column(device, strands.segment_point, "hair segments", buffers.segment_point),
         upload_column(device, strands.segment_strand, "hair segment strands",
                       buffers.segment_strand),
+        upload_column(device, pack_ambient_depths(ambient_depths(strands, nominal_width(strands))),
+                      "hair ambient depths", buffers.ambient),
         upload_column(device, strands.strand_seed, "hair seeds", buffers.strand_seed),
     };
     for (const auto& step : steps) {
@@ -46,7 +50,7 @@ Result<StrandBuffers> StrandBuffers::upload(gpu::Device& device, const StrandDat
 
 uint64_t StrandBuffers::bytes() const {
     return positions.bytes() + parameters.bytes() + widths.bytes() + colors.bytes() +
-           segment_point.bytes() + segment_strand.bytes() + strand_seed.bytes();
+           segment_point.bytes() + segment_strand.bytes() + strand_seed.bytes() + ambient.bytes();
 }
 
 }  // namespace vellus::hair

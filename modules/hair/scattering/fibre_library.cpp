@@ -18,10 +18,11 @@ FibreOptics fibre_optics(const HairMaterial& material) {
     return optics;
 }
 
-bool needs_fibre(ScatteringTechnique scattering, MultipleTechnique multiple) {
+bool needs_fibre(ScatteringTechnique scattering, MultipleTechnique multiple,
+                 EnvironmentTechnique environment) {
     return (scattering != ScatteringTechnique::kKaris &&
             scattering != ScatteringTechnique::kKajiyaKay) ||
-           multiple == MultipleTechnique::kDual;
+           multiple == MultipleTechnique::kDual || environment == EnvironmentTechnique::kShDepth;
 }
 
 glsl::HairFibre FibreLibrary::fibre(const FibreOptics& optics, float roughness, float shift) {

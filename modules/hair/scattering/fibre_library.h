@@ -12,7 +12,8 @@ namespace vellus::hair {
 FibreOptics fibre_optics(const HairMaterial& material);
 
 /// Whether shading by these techniques reads a HairFibre; the others have none made.
-bool needs_fibre(ScatteringTechnique scattering, MultipleTechnique multiple);
+bool needs_fibre(ScatteringTechnique scattering, MultipleTechnique multiple,
+                 EnvironmentTechnique environment = EnvironmentTechnique::kNone);
 
 /// Azimuthal fits made so far, one for each set of optics in use; the oldest goes when there are
 /// many. Resource.

@@ -36,6 +36,7 @@ HairSample card_sample(CardSet set, CardVertices vertices, uint index, vec2 pixe
     result.parameter = (set.flags & kCardsParameters) != 0u ? float(strand >> 24) * (1.0 / 255.0)
                                                             : parameter;
     result.along = 0.0;
+    result.ambient = AmbientDepths(vec3(0.0), vec3(0.0));
     result.seed = card_seed(shape, triangle.salt);
     result.tint = (set.flags & kCardsColors) != 0u ? card_color(set.color.at[texel]) : vec3(1.0);
     return result;

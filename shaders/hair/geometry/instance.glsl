@@ -2,6 +2,7 @@
 #ifndef VELLUS_HAIR_INSTANCE_GLSL
 #define VELLUS_HAIR_INSTANCE_GLSL
 #include "common/portable.glsl"
+#include "hair/environment/ambient.glsl"
 #include "hair/geometry/strands.glsl"
 
 const uint kHairHasColors = 1u;
@@ -18,6 +19,7 @@ struct HairInstance {
     Uints segment_strand;
     Uints strand_seed;
     uint64_t cards;      // address of a CardSet (hair/cards/cards.glsl); 0 for strands
+    Uvec2s ambient;      // optical depths around its points (hair/environment/ambient.glsl); 0: unknown
     uint first_point;    // of its points among all projected ones
     uint flags;
     vec3 base_color;
@@ -31,6 +33,9 @@ struct HairInstance {
     float shadow_falloff;  // 1/m
     float shadow_first;    // metres of hair without self-shadow, besides the map's texels
     float width;           // of its strands on average, metres
+    float ambient_scale;   // from the depths there to those of strands as wide as these
+    vec3 ambient_axes[3];  // the groom's axes in the world
+    AmbientLight ambient_light;  // along these axes
     uint padding;
 };
 
@@ -42,7 +47,18 @@ struct HairSample {
     float along;  // from the segment's first point to its second, in [0, 1]
     uint seed;    // of its strand
     vec3 tint;    // the groom's own colour; white without
+    AmbientDepths ambient;  // in strands of nominal width
 };
+
+vec3 hair_ambient_bytes(uint word) { return vec3(word & 0xffu, (word >> 8) & 0xffu, (word >> 16) & 0xffu); }
+
+/// Optical depths around a point between i and i + 1.
+AmbientDepths hair_ambient_depths(HairInstance hair, uint i, float along) {
+    if (uint64_t(hair.ambient) == 0ul) return AmbientDepths(vec3(0.0), vec3(0.0));
+    uvec2 a = hair.ambient.at[i], b = hair.ambient.at[i + 1u];
+    return AmbientDepths(ambient_depth(mix(hair_ambient_bytes(a.x), hair_ambient_bytes(b.x), along)),
+                         ambient_depth(mix(hair_ambient_bytes(a.y), hair_ambient_bytes(b.y), along)));
+}
 
 /// Where pixel centre `pixel` meets the segment: positions perspective-correct, tangents smooth along
 /// the strand.
@@ -67,6 +83,7 @@ HairSample hair_sample(HairInstance hair, ProjectedPoints projected, uint segmen
     if (dot(result.tangent, result.tangent) < 1.0e-6) result.tangent = direction;
     result.parameter = mix(u0, u1, t);
     result.along = t;
+    result.ambient = hair_ambient_depths(hair, i, t);
     result.seed = hair.strand_seed.at[hair.segment_strand.at[segment]];
     result.tint = vec3(1.0);
     if ((hair.flags & kHairHasColors) != 0u) {

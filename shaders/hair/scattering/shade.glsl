@@ -14,7 +14,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kLightCount = 4;
 layout(constant_id = 1) const int kShadow = 1;  // as ShadowTechnique of modules/hair/techniques.h
-layout(constant_id = 2) const bool kEnvironmentLit = true;
+layout(constant_id = 2) const int kEnvironment = 1;  // as EnvironmentTechnique there
 layout(constant_id = 3) const bool kOpaqueCasters = true;
 layout(constant_id = 5) const int kScattering = 0;
 layout(constant_id = 6) const int kMultiple = 1;
@@ -53,7 +53,7 @@ float shadow_of(PunctualLight light, vec3 position, out float opaque) {
     return hair_transmittance(light, position, hair.shadow_falloff, hair.shadow_first + texel);
 }
 
-vec3 shade(HairSurface surface, vec3 position, vec3 tangent) {
+vec3 shade(HairSurface surface, vec3 position, vec3 tangent, AmbientDepths ambient) {
     HairFrame frame = hair_frame(tangent, normalize(-position));
     HairEye eye = hair_eye(fibre, frame);
     vec3 radiance = vec3(0.0);
@@ -65,7 +65,14 @@ vec3 shade(HairSurface surface, vec3 position, vec3 tangent) {
         radiance += irradiance * opaque * hair_direct(kScattering, kMultiple, fibre, surface, frame, eye,
                                              to_light, shadow);
     }
-    if (kEnvironmentLit) {
+    if (kEnvironment == 2) {
+        mat3 axes = mat3(hair.ambient_axes[0], hair.ambient_axes[1], hair.ambient_axes[2]);
+        ambient.along *= hair.ambient_scale;
+        ambient.against *= hair.ambient_scale;
+        radiance += hair_ambient(fibre, surface, frame, tangent * axes, frame.normal * axes,
+                                 hair.ambient_light, ambient);
+    }
+    if (kEnvironment == 1) {
         radiance += karis_environment(surface, frame,
                                       sh_irradiance_over_pi(lights.environment, frame.normal));
     }
@@ -97,7 +104,7 @@ void main() {
                                       hair.scatter, hair.shift);
     vec3 position = (hair.to_relative * vec4(at.position, 1.0)).xyz;
     vec3 tangent = normalize(mat3(hair.to_relative) * at.tangent);
-    vec3 radiance = shade(surface, position, tangent);
+    vec3 radiance = shade(surface, position, tangent, at.ambient);
     imageStore(color, pixel, vec4(min(radiance, vec3(60000.0)), 1.0));
 
     vec4 before = hair.previous_to_clip * vec4(previous, 1.0);
