@@ -139,8 +139,9 @@ float depth_along(const Volume& volume, const glm::vec3& p, const glm::vec3& d) 
     for (float t = 0.0f;;) {
         const float step = std::max(finest.cell, kOpening * t);
         const glm::vec3 at = from + d * (t + 0.5f * step);
-        if (glm::any(glm::lessThan(at, glm::vec3(0.0f))) ||
-            glm::any(glm::greaterThan(at, extent))) {
+        // Wide cells reach beyond the groom by up to a step, with what they hold of its rim.
+        if (glm::any(glm::lessThan(at, glm::vec3(-step))) ||
+            glm::any(glm::greaterThan(at, extent + step))) {
             return depth;
         }
         const int mip = std::min(static_cast<int>(std::log2(step / finest.cell) + 0.5f), kMips - 1);

@@ -56,10 +56,13 @@ VELLUS_FN vec3 hair_ambient(VELLUS_IN(HairFibre) fibre, HairSurface s, HairFrame
     float multiple = min(s.scatter, 1.0f);
     vec3 lost = -kLog2E * (vec3(1.0f) - m.forward * multiple);
 
+    AmbientLight through;
     AmbientLight arriving;
     for (int i = 0; i < 3; ++i) {
-        arriving.along[i] = light.along[i] * exp2(lost * depths.along[i]);
-        arriving.against[i] = light.against[i] * exp2(lost * depths.against[i]);
+        through.along[i] = exp2(lost * depths.along[i]);
+        through.against[i] = exp2(lost * depths.against[i]);
+        arriving.along[i] = light.along[i] * through.along[i];
+        arriving.against[i] = light.against[i] * through.against[i];
     }
     // Two directions on either half of the cone, at ±45° and ±135° around the fibre.
     vec3 side = cross(tangent, normal) * (0.707106781f * f.cos_r);
@@ -67,14 +70,11 @@ VELLUS_FN vec3 hair_ambient(VELLUS_IN(HairFibre) fibre, HairSurface s, HairFrame
     vec3 mirrored = -f.sin_r * tangent;
     vec3 front = ambient_blend(mirrored + ahead + side, arriving) +
                  ambient_blend(mirrored + ahead - side, arriving);
-    vec3 behind = ambient_blend(mirrored - ahead + side, arriving) +
-                  ambient_blend(mirrored - ahead - side, arriving);
-    // How much hair there is behind to turn light back.
-    vec3 w = normal * normal;
-    float depth = w.x * (normal.x > 0.0f ? depths.against.x : depths.along.x) +
-                  w.y * (normal.y > 0.0f ? depths.against.y : depths.along.y) +
-                  w.z * (normal.z > 0.0f ? depths.against.z : depths.along.z);
-    vec3 stopped = vec3(1.0f) - exp2(lost * depth);
+    vec3 left = mirrored - ahead + side;
+    vec3 right = mirrored - ahead - side;
+    vec3 behind = ambient_blend(left, arriving) + ambient_blend(right, arriving);
+    // Only what the hair behind stops can it turn back.
+    vec3 stopped = vec3(1.0f) - 0.5f * (ambient_blend(left, through) + ambient_blend(right, through));
     vec3 back = dual_backscatter(m.forward, m.backward) * stopped * multiple;
     return 0.5f * (m.backward * front + m.forward * behind) + back * ambient_blend(normal, arriving);
 }
