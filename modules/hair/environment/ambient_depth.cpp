@@ -144,7 +144,8 @@ float depth_along(const Volume& volume, const glm::vec3& p, const glm::vec3& d) 
             glm::any(glm::greaterThan(at, extent + step))) {
             return depth;
         }
-        const int mip = std::min(static_cast<int>(std::log2(step / finest.cell) + 0.5f), kMips - 1);
+        const int mip =
+            std::min(static_cast<int>(std::lround(std::log2(step / finest.cell))), kMips - 1);
         const Grid& grid = volume.mips[static_cast<size_t>(mip)];
         depth += step * glm::dot(squared, grid.at(at / grid.cell));
         if (depth > glsl::kAmbientMost) return depth;
