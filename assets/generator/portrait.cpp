@@ -146,7 +146,7 @@ Json hair_extension() {
             {"transform", groom_transform()},
             {"width", {{"root", 0.00011}, {"tip_scale", 0.35}}},
             {"material",
-             {{"melanin", {{"eumelanin", 1.9}, {"pheomelanin", 0.3}}},
+             {{"melanin", {{"eumelanin", 0.55}, {"pheomelanin", 0.45}}},
               {"color_variation", 0.18},
               {"roughness", 0.28},
               {"shift", 0.035}}}};

@@ -59,7 +59,7 @@ Json hair_look(Node body) {
             {"binding", {{"mesh", body}}},
             {"motion", {{"bend_length", 0.08}, {"drag", 1.2}, {"hold", 0.35}}},
             {"material",
-             {{"melanin", {{"eumelanin", 0.85}, {"pheomelanin", 0.42}}},
+             {{"melanin", {{"eumelanin", 0.25}, {"pheomelanin", 0.3}}},
               {"color_variation", 0.2},
               {"roughness", 0.30},
               {"shift", 0.035}}}};
