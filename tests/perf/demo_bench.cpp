@@ -11,6 +11,7 @@
 #include "game_demo/src/progress.h"
 #include "game_demo/src/renderer.h"
 #include "tests/perf/bench.h"
+#include "tests/perf/frame_samples.h"
 #include "tests/perf/report/report.h"
 
 // Named scenes for a fixed number of frames: what a frame and each of its passes take, how many
@@ -36,28 +37,8 @@ struct Options {
 
 constexpr uint32_t kFramesPerCalibration = 8;
 
-/// A scene's frames as columns.
-struct Samples {
-    std::vector<double> wall_ms;
-    std::vector<double> cpu_ms;
-    std::vector<std::pair<std::string, std::vector<double>>> passes;
-    double bytes = 0.0;
+struct Samples : FrameSamples {
     uint64_t hash = 0;
-
-    /// A pass described more than once counts with its sum.
-    void add_passes(const graph::FrameReport& report) {
-        for (auto& [name, times] : passes) times.push_back(0.0);
-        for (const auto& pass : report.passes) {
-            auto found =
-                std::ranges::find(passes, pass.name, [](const auto& p) { return p.first; });
-            if (found == passes.end()) {
-                passes.emplace_back(pass.name, std::vector<double>(wall_ms.size(), 0.0));
-                found = passes.end() - 1;
-            }
-            found->second.back() += pass.gpu_ms;
-        }
-        bytes = static_cast<double>(report.memory.transient_bytes + report.memory.persistent_bytes);
-    }
 };
 
 std::vector<fs::path> scene_files(const Options& options) {
@@ -101,23 +82,12 @@ Result<Samples> measure(gpu::Device& device, const fs::path& scene, const Option
         if (auto done = (*renderer)->wait(); !done) return done.error();
         progress.update(frame + 1);
         if (frame < options.warm_up) continue;
-        samples.wall_ms.push_back(1e3 * (wall_seconds() - wall));
-        samples.cpu_ms.push_back(1e3 * (process_cpu_seconds() - cpu));
-        samples.add_passes((*renderer)->report());
+        const double wall_ms = 1e3 * (wall_seconds() - wall);
+        samples.add(wall_ms, 1e3 * (process_cpu_seconds() - cpu), (*renderer)->report());
     }
     const asset::Image picture = (*renderer)->pixels();
     samples.hash = fnv1a(std::as_bytes(std::span(picture.rgba)));
     return samples;
-}
-
-void add_rows(Report& report, const std::string& scene, const Samples& samples) {
-    report.rows.push_back(make_row(scene + "/wall", "ms", samples.wall_ms));
-    report.rows.push_back(make_row(scene + "/cpu", "ms", samples.cpu_ms));
-    for (const auto& [name, times] : samples.passes) {
-        report.rows.push_back(make_row(scene + "/" + name, "ms", times));
-    }
-    report.rows.push_back(make_row(scene + "/memory", "bytes", {samples.bytes}));
-    report.hashes[scene] = fmt::format("{:016x}", samples.hash);
 }
 
 Result<void> write_csv(const fs::path& folder, const std::string& scene, const Samples& samples) {
@@ -142,13 +112,7 @@ void print_scene(const std::string& scene, const Samples& samples) {
         "{:016x}\n",
         scene, wall.median > 0.0 ? 1e3 / wall.median : 0.0, wall.median, wall.p95, cpu.median,
         samples.hash);
-    std::vector<Row> rows;
-    for (const auto& [name, times] : samples.passes) rows.push_back(make_row(name, "ms", times));
-    std::ranges::sort(rows, std::greater{}, &Row::median);
-    for (const Row& row : rows) {
-        if (row.median < 0.05) break;
-        fmt::print("    {:<26} {:>8.2f} ms (p95 {:.2f})\n", row.name, row.median, row.p95);
-    }
+    print_passes(samples, 0.05);
 }
 
 Result<void> run_scenes(const Options& options) {
@@ -164,6 +128,7 @@ Result<void> run_scenes(const Options& options) {
         auto samples = measure(**device, file, options, calibrations);
         if (!samples) return samples.error();
         add_rows(report, scene, *samples);
+        report.hashes[scene] = fmt::format("{:016x}", samples->hash);
         print_scene(scene, *samples);
         if (options.csv.empty()) continue;
         if (auto saved = write_csv(options.csv, scene, *samples); !saved) return saved;

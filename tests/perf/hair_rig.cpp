@@ -107,7 +107,9 @@ Result<void> HairRig::set_up(const HairRigOptions& options) {
         if (auto sky = light::use_sky(world_, *device_, {}); !sky) return sky;
         light::spawn_sun(world_, {});
     }
-    auto groom = hair::add_groom(world_, *device_, options.groom, true);
+    auto groom = options.strands
+                     ? hair::add_strands(world_, *device_, "strands", *options.strands, {})
+                     : hair::add_groom(world_, *device_, options.groom, true);
     if (!groom) return groom.error();
     const Entity hair = hair::spawn_hair(world_, *groom, look, options.techniques, kNoEntity);
     if (options.bound) {

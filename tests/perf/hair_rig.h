@@ -7,12 +7,15 @@
 #include "engine/ecs/ecs.h"
 #include "engine/frame_graph/execute.h"
 #include "engine/gpu/buffer.h"
+#include "modules/hair/groom/strand_data.h"
 #include "modules/hair/techniques.h"
 
 namespace vellus::bench {
 
 struct HairRigOptions {
     std::string groom = "../shared/data/hair/straight.hair";
+    /// Drawn instead of the file; needed by create() only.
+    const hair::StrandData* strands = nullptr;
     std::string device;
     uint32_t width = 1280;
     uint32_t height = 720;
