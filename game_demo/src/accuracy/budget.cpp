@@ -64,9 +64,7 @@ std::vector<const AccuracyRow*> matching(const AccuracyTable& table, std::string
 }  // namespace
 
 std::vector<AxisChoice> base_choices() {
-    hair::HairTechniques techniques;
-    techniques.scattering = hair::ScatteringTechnique::kSeriesB;
-    techniques.multiple = hair::MultipleTechnique::kDual;
+    const hair::HairTechniques techniques = hair::best_techniques();
     std::vector<AxisChoice> choices;
     for (const std::string_view axis : hair::axes()) {
         choices.push_back({std::string(axis), std::string(technique_id(techniques, axis)), ""});

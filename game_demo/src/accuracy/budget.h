@@ -20,8 +20,8 @@ struct AxisChoice {
 /// "shadow=none", "opacity=dither detail=0.5".
 std::string text(const AxisChoice& choice);
 
-/// What frames are measured around: the demo's defaults, but with the techniques that come closest
-/// (`series_b`, `dual`), because effects add up best where they are small.
+/// What frames are measured around: best_techniques(), because effects add up best where they are
+/// small.
 std::vector<AxisChoice> base_choices();
 
 /// Time and error of a frame, the error in two parts that add up over choices: how much too bright

@@ -121,7 +121,8 @@ bool belongs(std::string_view pass, std::string_view axis) {
     const bool geometry = pass == "hair/project" || pass.starts_with("hair/visibility");
     if (axis == "opacity") return geometry || pass.starts_with("temporal/");
     if (!pass.starts_with("hair/") || geometry) return false;
-    return axis == "shadow" || !pass.starts_with("hair/shadow");
+    const bool shadow = pass.starts_with("hair/shadow") || pass.starts_with("hair/deep");
+    return axis == "shadow" || !shadow;
 }
 
 std::vector<double> axis_times(const DrawnFrames& frames, std::string_view axis) {

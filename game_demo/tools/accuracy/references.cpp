@@ -101,7 +101,10 @@ FrameRun frame_run(const Job& job, const JobSizes& sizes) {
     }
     if (job.axis == "scattering") run.choices = {{"multiple", "none", ""}};
     if (job.axis == kFrameAxis) run.choices = base_choices();
-    if (job.axis == "multiple") run.choices = {{"scattering", "series_b", ""}};
+    // Scattered light is as near as the shadows it starts from.
+    if (job.axis == "multiple") {
+        run.choices = {{"scattering", "series_b", ""}, {"shadow", "deep_opacity", ""}};
+    }
     if (const AxisChoice choice = choice_of(job); !choice.axis.empty()) {
         run.choices.push_back(choice);
     }
