@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/platform/files.h"
+#include "engine/platform/quantile.h"
 
 namespace vellus::demo {
 
@@ -13,13 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
-
-double quantile(const std::vector<double>& sorted, double share) {
-    const double at = share * static_cast<double>(sorted.size() - 1);
-    const auto low = static_cast<size_t>(at);
-    const size_t high = std::min(low + 1, sorted.size() - 1);
-    return std::lerp(sorted[low], sorted[high], at - std::floor(at));
-}
 
 Json spread_json(const Spread& spread) {
     return {{"median", spread.median}, {"p10", spread.low}, {"p90", spread.high}};

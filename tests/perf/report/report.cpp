@@ -7,19 +7,13 @@
 #include "engine/platform/clock.h"
 #include "engine/platform/files.h"
 #include "engine/platform/jobs.h"
+#include "engine/platform/quantile.h"
 
 namespace vellus::bench {
 
 namespace {
 
 constexpr int kVersion = 1;
-
-double quantile(const std::vector<double>& sorted, double share) {
-    const double at = share * static_cast<double>(sorted.size() - 1);
-    const auto low = static_cast<size_t>(at);
-    const size_t high = std::min(low + 1, sorted.size() - 1);
-    return std::lerp(sorted[low], sorted[high], at - std::floor(at));
-}
 
 nlohmann::json row_json(const Row& row) {
     return {{"name", row.name}, {"unit", row.unit},   {"median", row.median},
