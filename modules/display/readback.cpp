@@ -14,19 +14,22 @@ Result<gpu::Buffer> make_readback(gpu::Device& device, glm::uvec2 size) {
 }
 
 void describe_readback(scene::RenderFrame& frame, gpu::Buffer& target) {
+    describe_readback(frame, frame.display, target);
+}
+
+void describe_readback(scene::RenderFrame& frame, graph::ImageHandle picture, gpu::Buffer& target) {
     const auto imported = frame.graph.import_buffer("readback", {target.bytes()}, &target,
                                                     Access::kNone, Access::kHostRead);
     auto pass = frame.graph.add_pass("display/readback", graph::PassKind::kTransfer);
-    pass.read(frame.display, Access::kTransferRead);
+    pass.read(picture, Access::kTransferRead);
     const auto written = pass.write(imported, Access::kTransferWrite, graph::Load::kDiscard);
-    pass.execute(
-        [display = frame.display, written, size = frame.size](graph::PassContext& context) {
-            const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                           .imageExtent = {size.x, size.y, 1}};
-            vkCmdCopyImageToBuffer(context.commands().handle(), context.image(display),
-                                   VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, context.buffer(written), 1,
-                                   &region);
-        });
+    pass.execute([picture, written, size = frame.size](graph::PassContext& context) {
+        const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                       .imageExtent = {size.x, size.y, 1}};
+        vkCmdCopyImageToBuffer(context.commands().handle(), context.image(picture),
+                               VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, context.buffer(written), 1,
+                               &region);
+    });
     frame.graph.output(written);
 }
 

@@ -13,6 +13,10 @@ Result<gpu::Buffer> make_readback(gpu::Device& device, glm::uvec2 size);
 /// graph for it. `target` must live until the frame is done.
 void describe_readback(scene::RenderFrame& frame, gpu::Buffer& target);
 
+/// The same of any of the frame's pictures, e.g. its linear color before the tone map; `target`
+/// holds the picture's own texels.
+void describe_readback(scene::RenderFrame& frame, graph::ImageHandle picture, gpu::Buffer& target);
+
 /// What a finished frame left there.
 asset::Image read_picture(const gpu::Buffer& target, glm::uvec2 size);
 

@@ -7,6 +7,7 @@
 
 #include "engine/frame_graph/context.h"
 #include "modules/character/register.h"
+#include "modules/display/readback.h"
 #include "modules/display/register.h"
 #include "modules/hair/binding/bind_hair.h"
 #include "modules/hair/geometry/hair_frame.h"
@@ -161,30 +162,19 @@ void HairRig::nod() {
 
 void HairRig::read_back(Wanted wanted) {
     auto& frame = world_.resource<scene::RenderFrame>();
+    if (wanted == Wanted::kLinear) {
+        return display::describe_readback(frame, frame.color, readback_);
+    }
     const auto visibility = world_.resource<hair::HairFrame>().visibility;
     auto target = frame.graph.import_buffer("readback", {readback_.bytes()}, &readback_,
                                             graph::Access::kNone, graph::Access::kHostRead);
     auto pass = frame.graph.add_pass("bench/readback", graph::PassKind::kTransfer);
-    if (wanted == Wanted::kLinear) {
-        pass.read(frame.color, graph::Access::kTransferRead);
-    } else {
-        pass.read(visibility, graph::Access::kTransferRead);
-    }
+    pass.read(visibility, graph::Access::kTransferRead);
     target = pass.write(target, graph::Access::kTransferWrite, graph::Load::kDiscard);
-    pass.execute([wanted, visibility, color = frame.color, target, size = frame.size,
-                  bytes = readback_.bytes()](graph::PassContext& context) {
-        VkCommandBuffer commands = context.commands().handle();
-        if (wanted == Wanted::kLinear) {
-            const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                           .imageExtent = {size.x, size.y, 1}};
-            vkCmdCopyImageToBuffer(commands, context.image(color),
-                                   VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, context.buffer(target), 1,
-                                   &region);
-        } else {
-            const VkBufferCopy region{.size = bytes};
-            vkCmdCopyBuffer(commands, context.buffer(visibility), context.buffer(target), 1,
-                            &region);
-        }
+    pass.execute([visibility, target, bytes = readback_.bytes()](graph::PassContext& context) {
+        const VkBufferCopy region{.size = bytes};
+        vkCmdCopyBuffer(context.commands().handle(), context.buffer(visibility),
+                        context.buffer(target), 1, &region);
     });
     frame.graph.output(target);
 }

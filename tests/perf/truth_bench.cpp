@@ -6,13 +6,13 @@
 #include <memory>
 
 #include "engine/asset/image_io.h"
-#include "engine/frame_graph/context.h"
 #include "engine/platform/clock.h"
 #include "engine/platform/files.h"
 #include "engine/platform/hash.h"
 #include "game_demo/src/content.h"
 #include "game_demo/src/renderer.h"
 #include "game_demo/tools/reference/reference.h"
+#include "modules/display/readback.h"
 #include "modules/hair/components.h"
 #include "modules/hair/reference/tracer/render.h"
 #include "modules/light/light_set.h"
@@ -156,16 +156,25 @@ class RealTime {
                                           "linear picture");
         if (!buffer) return buffer.error();
         self->readback_ = std::move(*buffer);
-        self->renderer_->set_overlay([rt = self.get()](auto& frame) { rt->read_back(frame); });
+        self->renderer_->set_overlay([rt = self.get()](auto& frame) {
+            display::describe_readback(frame, frame.color, rt->readback_);
+        });
+        self->renderer_->world().query<const hair::HairTechniques>().each(
+            [&](const hair::HairTechniques& chosen) { self->loaded_ = chosen; });
         return self;
     }
 
-    void set(const std::vector<demo::TechniqueChoice>& choices) {
-        renderer_->world().query<hair::HairTechniques>().each([&](hair::HairTechniques& chosen) {
-            for (const auto& choice : choices) {
-                static_cast<void>(hair::set_technique(chosen, choice.axis, choice.technique));
+    /// The scene's own techniques but for a column's and those of all columns.
+    void choose(const std::vector<demo::TechniqueChoice>& column,
+                const std::vector<demo::TechniqueChoice>& all) {
+        hair::HairTechniques wanted = loaded_;
+        for (const auto* choices : {&column, &all}) {
+            for (const auto& choice : *choices) {
+                static_cast<void>(hair::set_technique(wanted, choice.axis, choice.technique));
             }
-        });
+        }
+        renderer_->world().query<hair::HairTechniques>().each(
+            [&](hair::HairTechniques& chosen) { chosen = wanted; });
     }
 
     /// Mean of some frames, and the median time of their passes of hair.
@@ -192,24 +201,9 @@ class RealTime {
   private:
     RealTime() = default;
 
-    void read_back(scene::RenderFrame& frame) {
-        auto target = frame.graph.import_buffer("linear picture", {readback_.bytes()}, &readback_,
-                                                graph::Access::kNone, graph::Access::kHostRead);
-        auto pass = frame.graph.add_pass("bench/readback", graph::PassKind::kTransfer);
-        pass.read(frame.color, graph::Access::kTransferRead);
-        target = pass.write(target, graph::Access::kTransferWrite, graph::Load::kDiscard);
-        pass.execute([color = frame.color, target, size = frame.size](graph::PassContext& context) {
-            const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                           .imageExtent = {size.x, size.y, 1}};
-            vkCmdCopyImageToBuffer(context.commands().handle(), context.image(color),
-                                   VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, context.buffer(target), 1,
-                                   &region);
-        });
-        frame.graph.output(target);
-    }
-
     std::unique_ptr<demo::Renderer> renderer_;
     gpu::Buffer readback_;
+    hair::HairTechniques loaded_;
     size_t pixels_ = 0;
 };
 
@@ -332,9 +326,7 @@ Result<void> compare_all(const Options& options) {
         for (const std::string& column : options.with) {
             auto choices = parse_choices(column);
             if (!choices) return choices.error();
-            (*real_time)->set({});
-            (*real_time)->set(*choices);
-            (*real_time)->set(*both);
+            (*real_time)->choose(*choices, *both);
             double hair_ms = 0.0;
             auto picture = (*real_time)->draw(options.frames, hair_ms);
             if (!picture) return picture.error();

@@ -3,8 +3,8 @@
 #include <glm/gtc/packing.hpp>
 #include <vector>
 
-#include "engine/frame_graph/context.h"
 #include "engine/frame_graph/execute.h"
+#include "modules/display/readback.h"
 #include "modules/display/register.h"
 #include "modules/hair/components.h"
 #include "modules/hair/register.h"
@@ -104,31 +104,14 @@ class HairScene {
         schedule.run(world);
         auto& frame = world.resource<scene::RenderFrame>();
         EXPECT_FALSE(frame.error) << frame.error->message();
-        read(frame, picture);
+        display::describe_readback(frame, frame.*picture, readback_);
+        frame.graph.output(frame.display);
         auto done = executor->execute(frame.graph);
         EXPECT_TRUE(done) << done.error().message();
         EXPECT_TRUE(executor->wait());
         ++world.resource<scene::FixedStep>().frame;
         return size_t{frame.size.x} * frame.size.y;
     }
-    void read(scene::RenderFrame& frame, Picture picture) {
-        auto target = frame.graph.import_buffer("readback", {readback_.bytes()}, &readback_,
-                                                graph::Access::kNone, graph::Access::kHostRead);
-        auto pass = frame.graph.add_pass("test/readback", graph::PassKind::kTransfer);
-        pass.read(frame.*picture, graph::Access::kTransferRead);
-        target = pass.write(target, graph::Access::kTransferWrite, graph::Load::kDiscard);
-        pass.execute([color = frame.*picture, target,
-                      size = frame.size](graph::PassContext& context) {
-            const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                           .imageExtent = {size.x, size.y, 1}};
-            vkCmdCopyImageToBuffer(context.commands().handle(), context.image(color),
-                                   VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, context.buffer(target), 1,
-                                   &region);
-        });
-        frame.graph.output(target);
-        frame.graph.output(frame.display);
-    }
-
     gpu::Device& device_;
     gpu::Buffer readback_;
 };
