@@ -7,6 +7,7 @@
 #include "engine/platform/clock.h"
 #include "game_demo/src/accuracy/setting.h"
 #include "game_demo/src/renderer.h"
+#include "modules/display/readback.h"
 #include "modules/hair/spawn.h"
 #include "modules/light/environment.h"
 #include "modules/scene/time.h"
@@ -16,27 +17,10 @@ namespace vellus::demo {
 
 namespace {
 
-constexpr const char* kReadback = "accuracy/readback";
+constexpr const char* kReadback = "display/readback";
 constexpr const char* kPicture = "demo/picture";
 constexpr uint64_t kPixelBytes = 8;    // of the readback
 constexpr uint64_t kPictureBytes = 4;  // of the picture nobody looks at
-
-/// Copies the frame's linear picture, as the display would get it.
-void describe_copy(scene::RenderFrame& frame, gpu::Buffer& buffer) {
-    auto target = frame.graph.import_buffer("accuracy", {buffer.bytes()}, &buffer,
-                                            graph::Access::kNone, graph::Access::kHostRead);
-    auto pass = frame.graph.add_pass(kReadback, graph::PassKind::kTransfer);
-    pass.read(frame.color, graph::Access::kTransferRead);
-    target = pass.write(target, graph::Access::kTransferWrite, graph::Load::kDiscard);
-    pass.execute([color = frame.color, target, size = frame.size](graph::PassContext& context) {
-        const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                       .imageExtent = {size.x, size.y, 1}};
-        vkCmdCopyImageToBuffer(context.commands().handle(), context.image(color),
-                               VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, context.buffer(target), 1,
-                               &region);
-    });
-    frame.graph.output(target);
-}
 
 Radiance unpack(const gpu::Buffer& buffer, uint32_t side) {
     Radiance picture{glm::uvec2(side), std::vector<glm::vec3>(size_t{side} * side)};
@@ -89,7 +73,9 @@ Result<DrawnFrames> draw_frames(gpu::Device& device, const StudioGroom& groom,
     auto buffer = gpu::Buffer::create(device, pixels * kPixelBytes, gpu::MemoryKind::kReadback,
                                       "accuracy readback");
     if (!buffer) return buffer.error();
-    (*renderer)->set_overlay([&](scene::RenderFrame& frame) { describe_copy(frame, *buffer); });
+    (*renderer)->set_overlay([&](scene::RenderFrame& frame) {
+        display::describe_readback(frame, frame.color, *buffer);
+    });
     DrawnFrames drawn;
     for (uint32_t frame = 0; frame < run.warm_up + run.frames; ++frame) {
         const double cpu = process_cpu_seconds();
@@ -109,11 +95,7 @@ Result<DrawnFrames> draw_frames(gpu::Device& device, const StudioGroom& groom,
 }
 
 std::vector<double> frame_times(const DrawnFrames& frames) {
-    std::vector<double> sums(frames.pictures.size(), 0.0);
-    for (const PassTimes& pass : frames.passes) {
-        for (size_t i = 0; i < sums.size(); ++i) sums[i] += pass.ms[i];
-    }
-    return sums;
+    return axis_times(frames, kFrameAxis);
 }
 
 bool belongs(std::string_view pass, std::string_view axis) {

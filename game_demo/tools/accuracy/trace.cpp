@@ -48,20 +48,6 @@ Reference reference_of(const tracer::Film& film) {
     return reference;
 }
 
-/// A ray of the camera through a random point of a pixel, as PathTracer::sample has it.
-tracer::Ray camera_ray(const tracer::Camera& camera, glm::uvec2 at, uint32_t size,
-                       tracer::Random& random) {
-    const glm::dvec2 ndc =
-        2.0 * (glm::dvec2(at) + random.unit2()) / static_cast<double>(size) - 1.0;
-    const glm::dvec3 direction = camera.axes * glm::dvec3(ndc.x * camera.tan_half_fov.x,
-                                                          -ndc.y * camera.tan_half_fov.y, -1.0);
-    const double length = glm::length(direction);
-    return {.direction = direction / length,
-            .near = camera.near_plane * length,
-            .seed = random.bits(),
-            .from_camera = true};
-}
-
 /// From where a ray met a strand to the light, past that strand.
 tracer::Ray light_ray(const tracer::Scene& scene, const tracer::Ray& ray, const tracer::Hit& hit,
                       uint64_t seed) {
@@ -127,7 +113,8 @@ Result<VisibleHair> trace_visible(const tracer::Scene& scene, uint32_t size, uin
             uint32_t lit = 0;
             for (uint32_t i = 0; i < rays; ++i) {
                 tracer::Random random(seed, static_cast<uint32_t>(pixel), i);
-                const tracer::Ray ray = camera_ray(scene.camera, at, size, random);
+                const tracer::Ray ray =
+                    tracer::camera_ray(scene.camera, at, glm::uvec2(size), random);
                 tracer::Hit hit;
                 if (!(*geometry)->closest(ray, hit) || hit.groom == tracer::kNone) continue;
                 ++hair;

@@ -245,16 +245,19 @@ PathSample PathTracer::trace(Ray ray, Random& random) const {
     return result;
 }
 
-PathSample PathTracer::sample(const glm::uvec2& at, const glm::uvec2& size, Random random) const {
-    const Camera& camera = scene_.camera;
+Ray camera_ray(const Camera& camera, const glm::uvec2& at, const glm::uvec2& size, Random& random) {
     const glm::dvec2 ndc = 2.0 * (glm::dvec2(at) + random.unit2()) / glm::dvec2(size) - 1.0;
     const glm::dvec3 direction = camera.axes * glm::dvec3(ndc.x * camera.tan_half_fov.x,
                                                           -ndc.y * camera.tan_half_fov.y, -1.0);
     const double length = glm::length(direction);
-    Ray ray{.direction = direction / length,
+    return {.direction = direction / length,
             .near = camera.near_plane * length,
             .seed = random.bits(),
             .from_camera = true};
+}
+
+PathSample PathTracer::sample(const glm::uvec2& at, const glm::uvec2& size, Random random) const {
+    const Ray ray = camera_ray(scene_.camera, at, size, random);
     return trace(ray, random);
 }
 

@@ -28,6 +28,9 @@ struct PathSample {
     bool hair = false;     ///< it met hair first
 };
 
+/// Through a uniformly chosen point of pixel `at` of a picture of `size`.
+Ray camera_ray(const Camera& camera, const glm::uvec2& at, const glm::uvec2& size, Random& random);
+
 /// Unidirectional path tracing (Kajiya 1986) with next-event estimation: hair scatters as in Chiang
 /// et al. 2016, meshes as in common/pbr.glsl. Thread-safe.
 class PathTracer {
