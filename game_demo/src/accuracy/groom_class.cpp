@@ -1,10 +1,7 @@
 #include "game_demo/src/accuracy/groom_class.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-
-#include "modules/hair/groom/hair_material.h"
 
 namespace vellus::demo {
 
@@ -48,19 +45,11 @@ std::string_view groom_kind(std::span<const glm::vec3> points,
 }
 
 std::string_view colour_kind(const glm::vec3& base_color) {
-    // As vellus_accuracy has them.
-    struct Known {
-        std::string_view name;
-        hair::Melanin melanin;
-    };
-    static constexpr std::array kKnown = {
-        Known{"black", {8.0f, 0.0f}}, Known{"brown", {1.3f, 0.0f}}, Known{"blond", {0.3f, 0.1f}},
-        Known{"white", {0.02f, 0.0f}}};
     const auto stops = [](double value) { return std::log2(std::max(value, 1e-4)); };
     const double wanted = stops(brightness(base_color));
     return std::ranges::min_element(
-               kKnown, {},
-               [&](const Known& known) {
+               kHairColours, {},
+               [&](const HairColour& known) {
                    return std::abs(stops(brightness(melanin_color(known.melanin))) - wanted);
                })
         ->name;

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
 #include <string_view>
+
+#include "modules/hair/groom/hair_material.h"
 
 namespace vellus::demo {
 
@@ -14,6 +17,15 @@ struct GroomClass {
 
     bool operator==(const GroomClass&) const = default;
 };
+
+/// A hair colour that is measured.
+struct HairColour {
+    std::string_view name;
+    hair::Melanin melanin;
+};
+inline constexpr std::array kHairColours = {
+    HairColour{"black", {8.0f, 0.0f}}, HairColour{"brown", {1.3f, 0.0f}},
+    HairColour{"blond", {0.3f, 0.1f}}, HairColour{"white", {0.02f, 0.0f}}};
 
 /// Fur by its length (shorter than 5 cm), the rest by how much shorter strands are than their arc;
 /// `metres` is what a unit of the points is.

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
+#include "game_demo/src/accuracy/groom_class.h"
 #include "modules/hair/grow/grow.h"
 #include "modules/hair/spawn.h"
 #include "modules/light/load_environment.h"
@@ -25,14 +25,6 @@ constexpr double kPitch = 0.1;
 constexpr double kFill = 0.95;
 constexpr float kSunIrradiance = 3.0f;
 constexpr glm::vec4 kSkin{0.35f, 0.22f, 0.16f, 1.0f};
-
-struct NamedMelanin {
-    std::string_view name;
-    hair::Melanin melanin;
-};
-constexpr std::array kMelanin = {
-    NamedMelanin{"black", {8.0f, 0.0f}}, NamedMelanin{"brown", {1.3f, 0.0f}},
-    NamedMelanin{"blond", {0.3f, 0.1f}}, NamedMelanin{"white", {0.02f, 0.0f}}};
 
 std::shared_ptr<const asset::SceneAsset> ball_asset(const hair::GrowSurface& ball) {
     asset::Primitive primitive;
@@ -98,8 +90,8 @@ Result<StudioGroom> grow_studio_groom(const std::string& name, uint32_t strands,
 }
 
 glm::vec3 studio_colour(const std::string& name) {
-    const auto* found = std::ranges::find(kMelanin, name, &NamedMelanin::name);
-    return hair::melanin_color(found == kMelanin.end() ? hair::Melanin{} : found->melanin);
+    const auto* found = std::ranges::find(kHairColours, name, &HairColour::name);
+    return hair::melanin_color(found == kHairColours.end() ? hair::Melanin{} : found->melanin);
 }
 
 Result<Entity> set_up_studio(ContentHost& host, const AddStrands& add, const StudioGroom& groom,

@@ -305,7 +305,9 @@ void gather_hair(HairQuery hair, Res<const HairLibrary> library, Res<const HairB
 
         HairInstance instance = describe_instance(groom, material, shadow, effects.techniques);
         instance.width = mean_width(draw, groom);
-        describe_ambient(groom, world.matrix, width, material.alpha, lights->block, instance);
+        if (draw.environment == EnvironmentTechnique::kShDepth) {
+            describe_ambient(groom, world.matrix, width, material.alpha, lights->block, instance);
+        }
         instance.to_relative = affine(draw.world, camera);
         instance.to_clip = v.view_projection_unjittered * instance.to_relative;
         instance.previous_to_clip = v.previous_view_projection * affine(previous_world, camera);
