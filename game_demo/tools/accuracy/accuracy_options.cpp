@@ -1,5 +1,7 @@
 #include "game_demo/tools/accuracy/accuracy_options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 
 #include <charconv>
@@ -50,15 +52,22 @@ void add_choice_options(CLI::App& app, AccuracyOptions& options) {
 }
 
 void add_size_options(CLI::App& app, AccuracyOptions& options) {
-    const auto number = [&](const char* name, uint32_t& slot, uint32_t high, const char* help) {
-        app.add_option(name, slot, help)->check(CLI::Range(1u, high))->type_name("N");
+    AccuracyOptions quick;
+    quick.quick = true;
+    const JobSizes all = job_sizes({});
+    const JobSizes few = job_sizes(quick);
+    const auto number = [&](const char* name, uint32_t& slot, uint32_t high, const char* help,
+                            uint32_t JobSizes::*size) {
+        app.add_option(name, slot, fmt::format("{} ({}; quick: {})", help, all.*size, few.*size))
+            ->check(CLI::Range(1u, high))
+            ->type_name("N");
     };
-    number("--size", options.size, 2048, "Pixels along a picture's side (256; quick: 128)");
-    number("--frames", options.frames, 1024, "Frames that count (32; quick: 8)");
+    number("--size", options.size, 2048, "Pixels along a picture's side", &JobSizes::size);
+    number("--frames", options.frames, 1024, "Frames that count", &JobSizes::frames);
     number("--warmup", options.warm_up, 1024,
-           "Frames for TAA to settle in, where opacity is measured (48; quick: 32)");
-    number("--spp", options.samples, 65536, "Path tracer's samples a pixel (256; quick: 48)");
-    number("--strands", options.strands, 100'000, "Strands of each groom (8000; quick: 3000)");
+           "Frames for TAA to settle in, where opacity is measured", &JobSizes::warm_up);
+    number("--spp", options.samples, 65536, "Path tracer's samples a pixel", &JobSizes::samples);
+    number("--strands", options.strands, 100'000, "Strands of each groom", &JobSizes::strands);
     app.add_option("--seed", options.seed, "Seed of grooms and references")
         ->type_name("S")
         ->capture_default_str();

@@ -13,6 +13,8 @@ namespace {
 
 using Names = std::vector<std::string>;
 
+constexpr std::string_view kColourOfSettings = "brown";
+
 /// Which pictures an axis is measured in.
 struct AxisPictures {
     Names colours;
@@ -42,13 +44,16 @@ Names settings_of(std::string_view axis, std::string_view technique, bool quick)
                      : Names{"", "taa=off", "detail=0.5", "detail=0.25"};
     }
     if (axis == "opacity") return {"", "taa=off"};
-    if (technique == "none") return {""};
+    if (technique == "none" || quick) return {""};
     if (axis == "shadow") {
-        return quick ? Names{"", "map=256", "map=1024"}
-                     : Names{"", "map=256", "map=512", "map=1024", "falloff=40", "falloff=160"};
+        Names settings = {"", "map=256", "map=512", "map=1024"};
+        if (technique == "pcf_exponential") {
+            settings.insert(settings.end(), {"falloff=40", "falloff=160"});
+        }
+        return settings;
     }
-    if (axis == "multiple" && !quick) return {"", "map=256", "map=1024"};
-    if (axis == "scattering" && !quick) return {"", "roughness=0.2", "roughness=0.5"};
+    if (axis == "multiple") return {"", "map=256", "map=1024"};
+    if (axis == "scattering") return {"", "roughness=0.2", "roughness=0.5"};
     return {""};
 }
 
@@ -70,7 +75,13 @@ std::vector<Variant> variants_of_frame(bool quick) {
     std::vector<Variant> variants = {{kBase, ""}};
     for (const AxisChoice& usual : base_choices()) {
         const std::string& axis = usual.axis;
-        for (const auto& [technique, setting] : variants_of_axis(axis, true)) {
+        auto changes = variants_of_axis(axis, true);
+        if (axis == "shadow" && !quick) {
+            for (const char* map : {"map=256", "map=1024"}) {
+                changes.emplace_back(usual.technique, map);
+            }
+        }
+        for (const auto& [technique, setting] : changes) {
             if (technique == usual.technique && setting.empty()) continue;
             if (quick && axis == "opacity" && setting == "taa=off" &&
                 technique != usual.technique) {
@@ -81,6 +92,14 @@ std::vector<Variant> variants_of_frame(bool quick) {
         if (axis == "opacity") variants.emplace_back("opacity=" + usual.technique, "detail=0.25");
     }
     return variants;
+}
+
+/// A setting tells the same story in every colour, so one colour is measured; a frame's time and
+/// error are predicted for each.
+bool is_told_elsewhere(const std::string& axis, const AxisPictures& pictures,
+                       const std::string& colour, const std::string& setting) {
+    if (setting.empty() || axis == kFrameAxis || pictures.colours.size() == 1) return false;
+    return colour != kColourOfSettings;
 }
 
 bool wanted(const Names& only, const std::string& name) {
@@ -98,6 +117,7 @@ void add_axis(const AccuracyOptions& options, const std::string& axis, std::vect
                 if (!wanted(options.lights, light) || !wanted(options.colours, colour)) continue;
                 for (const auto& [technique, setting] : variants) {
                     if (!wanted(options.techniques, technique)) continue;
+                    if (is_told_elsewhere(axis, pictures, colour, setting)) continue;
                     const bool reference = axis == "scattering" && technique == "deon";
                     jobs.push_back({{groom, colour, light}, axis, technique, setting, reference});
                 }

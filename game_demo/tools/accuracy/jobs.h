@@ -45,11 +45,11 @@ struct Job {
 
 /// How large and how long every job is.
 struct JobSizes {
-    uint32_t size = 256;
-    uint32_t frames = 32;
+    uint32_t size = 160;
+    uint32_t frames = 16;
     uint32_t warm_up = 48;  ///< where TAA's history matters
-    uint32_t samples = 256;
-    uint32_t strands = 8000;
+    uint32_t samples = 128;
+    uint32_t strands = 6000;
     uint64_t seed = 0;
 };
 JobSizes job_sizes(const AccuracyOptions& options);

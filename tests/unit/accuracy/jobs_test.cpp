@@ -40,6 +40,19 @@ TEST(AccuracyJobs, EveryTechniqueOfEveryAxisInEveryGroomAndColour) {
     }
 }
 
+TEST(AccuracyJobs, SettingsAreMeasuredInOneColourOnly) {
+    std::map<std::string, std::set<std::string>> colours;  // of axis technique setting
+    for (const Job& job : all_jobs({})) {
+        colours[job.axis + ' ' + job.technique + ' ' + job.setting].insert(job.subject.colour);
+    }
+    EXPECT_EQ(colours.at("scattering karis "),
+              (std::set<std::string>{kColours.begin(), kColours.end()}));
+    EXPECT_EQ(colours.at("scattering karis roughness=0.2"), std::set<std::string>{"brown"});
+    EXPECT_EQ(colours.at("multiple dual map=256"), std::set<std::string>{"brown"});
+    EXPECT_EQ(colours.at("opacity dither taa=off"), std::set<std::string>{"white"});
+    EXPECT_EQ(colours.at("frame shadow=deep_opacity map=256").size(), kColours.size());
+}
+
 TEST(AccuracyJobs, NamesAreUniqueAndFitForFiles) {
     const auto names = ids(all_jobs({}));
     EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
