@@ -29,8 +29,8 @@ class ContentHost {
                                        const hair::HairExtension& look) = 0;
     /// Binds a hair entity to a mesh entity.
     virtual Result<void> bind_hair(Entity hair, Entity mesh) = 0;
-    /// Lets a hair entity's strands move; a host that draws single pictures leaves them as they are.
-    virtual Result<void> move_hair(Entity, const hair::MotionChoice&) { return {}; }
+    /// Lets a hair entity's strands move.
+    virtual Result<void> move_hair(Entity hair, const hair::MotionChoice& motion) = 0;
     /// The meshes of the SceneLibrary that are new.
     virtual Result<void> add_meshes() = 0;
     virtual Result<void> set_environment(const light::EnvironmentImage& image) = 0;

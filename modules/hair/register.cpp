@@ -15,11 +15,14 @@ void register_hair_columns(World& world, Schedule& schedule) {
     world.insert_resource(HairLibrary{});
     world.insert_resource(HairBindings{});
     world.insert_resource(HairPoses{});
+    world.insert_resource(HairMotions{});
+    world.insert_resource(Wind{});
     if (world.find_resource<character::DeformColumns>() == nullptr) {
         world.emplace_resource<character::DeformColumns>();
     }
     schedule.add(update_hair_bounds).in(scene::kTransforms).after(scene::propagate_transforms);
     schedule.add(pose_hair).in(scene::kView);
+    schedule.add(move_hair).in(scene::kView).after(pose_hair).after(scene::update_view);
 }
 
 void register_hair(World& world, Schedule& schedule) {
@@ -29,10 +32,7 @@ void register_hair(World& world, Schedule& schedule) {
     world.insert_resource(FibreLibrary{});
     world.insert_resource(HairShadowMaps{});
     world.insert_resource(HairDeformation{});
-    world.insert_resource(HairMotions{});
     world.insert_resource(HairMotionPasses{});
-    world.insert_resource(Wind{});
-    schedule.add(move_hair).in(scene::kView).after(pose_hair).after(scene::update_view);
     schedule.add(empty_clear_bounds).in(scene::kView).after(move_hair);
     schedule.add(gather_hair)
         .in(scene::kGather)

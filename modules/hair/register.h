@@ -4,7 +4,7 @@
 
 namespace vellus::hair {
 
-/// What needs no device: HairLibrary and bindings, bounds and poses; part of register_hair.
+/// What needs no device: HairLibrary and bindings, bounds, poses and motion; part of register_hair.
 void register_hair_columns(World& world, Schedule& schedule);
 
 /// Resources (HairLibrary, HairFrame) and systems of the hair module; needs scene and light.

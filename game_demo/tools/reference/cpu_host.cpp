@@ -4,6 +4,7 @@
 
 #include "modules/character/register.h"
 #include "modules/hair/binding/bind_hair.h"
+#include "modules/hair/dynamics/groom_motion.h"
 #include "modules/hair/groom/load_strands.h"
 #include "modules/hair/register.h"
 #include "modules/hair/spawn.h"
@@ -54,6 +55,11 @@ uint32_t CpuHost::add_strands(const std::string& name, const hair::StrandData& s
 
 Result<void> CpuHost::bind_hair(Entity hair, Entity mesh) {
     return hair::bind_hair(world_, hair, mesh);
+}
+
+Result<void> CpuHost::move_hair(Entity hair, const hair::MotionChoice& motion) {
+    hair::add_motion(world_, hair, motion.motion, motion.guides);
+    return {};
 }
 
 Result<void> CpuHost::set_environment(const light::EnvironmentImage& image) {

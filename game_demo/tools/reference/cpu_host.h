@@ -24,6 +24,7 @@ class CpuHost final : public ContentHost {
     uint32_t add_strands(const std::string& name, const hair::StrandData& strands,
                          const hair::GroomReport& report);
     Result<void> bind_hair(Entity hair, Entity mesh) override;
+    Result<void> move_hair(Entity hair, const hair::MotionChoice& motion) override;
     Result<void> add_meshes() override { return {}; }
     Result<void> set_environment(const light::EnvironmentImage& image) override;
 

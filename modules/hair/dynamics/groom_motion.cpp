@@ -56,7 +56,7 @@ Result<void> upload(gpu::Device& device, std::span<const T> values, const char* 
     return {};
 }
 
-Result<void> upload_rows(gpu::Device& device, const CardRows& rows, GroomMotion& out) {
+Result<void> upload_rows(gpu::Device& device, const CardRows& rows, MotionBuffers& out) {
     out.row_edge = rows.edge;
     if (auto done = upload(device, std::span<const uint32_t>(rows.row_begin), "hair card rows",
                            out.row_begin);
@@ -67,23 +67,27 @@ Result<void> upload_rows(gpu::Device& device, const CardRows& rows, GroomMotion&
                   out.row_points);
 }
 
-Result<void> make_buffers(gpu::Device& device, const std::vector<uint32_t>& begin,
-                          const GuideSelection& chosen, GroomMotion& out) {
-    if (auto done = upload(device, std::span<const StrandGuides>(chosen.follow),
-                           "hair strand guides", out.follow);
+Result<std::unique_ptr<MotionBuffers>> make_buffers(gpu::Device& device,
+                                                    std::span<const uint32_t> begin,
+                                                    const CardRows& rows,
+                                                    const GroomMotion& groom) {
+    auto made = std::make_unique<MotionBuffers>();
+    if (auto done = upload(device, std::span<const StrandGuides>(groom.follow),
+                           "hair strand guides", made->follow);
         !done) {
-        return done;
+        return done.error();
     }
-    if (auto done = upload(device, std::span<const uint32_t>(begin), "hair strand begins",
-                           out.strand_begin);
-        !done) {
-        return done;
+    if (auto done = upload(device, begin, "hair strand begins", made->strand_begin); !done) {
+        return done.error();
     }
-    auto turns = gpu::Buffer::create(device, kTurnSlots * out.turn_bytes(),
+    auto turns = gpu::Buffer::create(device, kTurnSlots * groom.turn_bytes(),
                                      gpu::MemoryKind::kUpload, "hair guide turns");
     if (!turns) return turns.error();
-    out.turns = *std::move(turns);
-    return {};
+    made->turns = *std::move(turns);
+    if (rows.edge != 0) {
+        if (auto done = upload_rows(device, rows, *made); !done) return done.error();
+    }
+    return made;
 }
 
 const BoundRoots* bound_roots(const World& world, const HairBinding* binding) {
@@ -91,42 +95,65 @@ const BoundRoots* bound_roots(const World& world, const HairBinding* binding) {
     return &world.resource<HairBindings>().list[binding->roots].roots;
 }
 
-}  // namespace
-
-Result<void> add_motion(World& world, gpu::Device& device, Entity hair, const HairMotion& motion,
-                        uint32_t guides) {
-    const Hair* const worn = world.get<Hair>(hair);
-    assert(worn != nullptr);
-    const LibraryGroom& groom = world.resource<HairLibrary>().grooms[worn->groom];
-    const BoundRoots* const bound = bound_roots(world, world.get<HairBinding>(hair));
-    const CardRows rows = groom.cards ? cut_rows(groom) : CardRows{};
-    const Lines all = lines_of(groom, rows);
+/// Guides of a groom, at rest, and who follows them.
+std::unique_ptr<GroomMotion> choose_guides(const LibraryGroom& groom, const BoundRoots* bound,
+                                           const CardRows& rows, const Lines& all,
+                                           uint32_t guides) {
     const size_t strands = all.begin.empty() ? 0 : all.begin.size() - 1;
     const uint32_t count = guides == 0 ? default_guide_count(strands) : guides;
-    const GuideSelection chosen = select_guides(all.points, all.begin, count);
+    GuideSelection chosen = select_guides(all.points, all.begin, count);
     std::vector<std::vector<glm::vec3>> lines;
     lines.reserve(chosen.guides.size());
     for (const uint32_t strand : chosen.guides) {
         lines.push_back(rest_points(groom, rows, bound, strand));
     }
     auto made = std::make_unique<GroomMotion>(make_guides(lines));
-    made->entity = hair;
-    made->strands = chosen.guides;
+    made->strands = std::move(chosen.guides);
+    made->follow = std::move(chosen.follow);
     made->spread = chosen.spread + rows.half_width;
-    made->roots.resize(chosen.guides.size());
-    if (auto done = make_buffers(device, all.begin, chosen, *made); !done) return done;
-    if (groom.cards) {
-        if (auto done = upload_rows(device, rows, *made); !done) return done;
-    }
+    made->roots.resize(made->strands.size());
+    return made;
+}
 
+const LibraryGroom& groom_of(const World& world, Entity hair) {
+    const Hair* const worn = world.get<Hair>(hair);
+    assert(worn != nullptr);
+    return world.resource<HairLibrary>().grooms[worn->groom];
+}
+
+void wear(World& world, Entity hair, HairMotion motion, std::unique_ptr<GroomMotion> made) {
     remove_motion(world, hair);
     auto& list = world.resource<HairMotions>().list;
-    HairMotion component = motion;
-    component.slot = static_cast<uint32_t>(list.size());
+    motion.slot = static_cast<uint32_t>(list.size());
+    made->entity = hair;
     list.push_back(std::move(made));
-    world.add(hair, component);
+    world.add(hair, motion);
     world.add(hair, HairMoves{});
+}
+
+}  // namespace
+
+Result<void> add_motion(World& world, gpu::Device& device, Entity hair, const HairMotion& motion,
+                        uint32_t guides) {
+    const LibraryGroom& groom = groom_of(world, hair);
+    const CardRows rows = groom.cards ? cut_rows(groom) : CardRows{};
+    const Lines all = lines_of(groom, rows);
+    auto made =
+        choose_guides(groom, bound_roots(world, world.get<HairBinding>(hair)), rows, all, guides);
+    auto buffers = make_buffers(device, all.begin, rows, *made);
+    if (!buffers) return buffers.error();
+    made->buffers = *std::move(buffers);
+    made->follow = {};
+    wear(world, hair, motion, std::move(made));
     return {};
+}
+
+void add_motion(World& world, Entity hair, HairMotion motion, uint32_t guides) {
+    const LibraryGroom& groom = groom_of(world, hair);
+    auto made = choose_guides(groom, bound_roots(world, world.get<HairBinding>(hair)), {},
+                              lines_of(groom, {}), guides);
+    motion.solver = MotionSolver::kProcessor;
+    wear(world, hair, motion, std::move(made));
 }
 
 bool remove_motion(World& world, Entity hair) {
@@ -165,21 +192,27 @@ bool place_roots(const BoundRoots* bound, const HairPose* pose, const glm::dmat4
     return true;
 }
 
+glm::quat link_turn(const GroomMotion& groom, uint32_t guide, uint32_t link) {
+    const GuideColumns& rotation = groom.motion.state().rotation;
+    const glm::quat local(rotation.at(3, link)[guide], rotation.at(0, link)[guide],
+                          rotation.at(1, link)[guide], rotation.at(2, link)[guide]);
+    const glm::quat root(groom.roots[guide].turn);
+    return root * local * glm::conjugate(root);
+}
+
 void write_turns(GroomMotion& groom) {
     const GuideSet& guides = groom.motion.guides();
-    const GuideState& state = groom.motion.state();
     groom.slot = (groom.slot + 1) % kTurnSlots;
-    auto* const out =
-        reinterpret_cast<uint64_t*>(groom.turns.mapped() + groom.slot * groom.turn_bytes());
+    uint64_t* const out = groom.buffers
+                              ? reinterpret_cast<uint64_t*>(groom.buffers->turns.mapped() +
+                                                            groom.slot * groom.turn_bytes())
+                              : nullptr;
     float most = 0.0f;
     for (uint32_t g = 0; g < guides.count; ++g) {
-        const glm::quat root(groom.roots[g].turn);
-        const glm::quat back = glm::conjugate(root);
         for (uint32_t i = 0; i < guides.links; ++i) {
-            const glm::quat local(state.rotation.at(3, i)[g], state.rotation.at(0, i)[g],
-                                  state.rotation.at(1, i)[g], state.rotation.at(2, i)[g]);
-            const glm::quat turn = root * local * back;
-            most = std::max({most, std::abs(local.x), std::abs(local.y), std::abs(local.z)});
+            const glm::quat turn = link_turn(groom, g, i);
+            most = std::max({most, std::abs(turn.x), std::abs(turn.y), std::abs(turn.z)});
+            if (out == nullptr) continue;
             out[size_t{g} * guides.links + i] =
                 glm::packSnorm4x16(glm::vec4(turn.x, turn.y, turn.z, turn.w));
         }

@@ -17,20 +17,26 @@
 
 namespace vellus::hair {
 
+/// What a groom in motion has on the device.
+struct MotionBuffers {
+    gpu::Buffer follow;        ///< StrandGuides by strand
+    gpu::Buffer strand_begin;  ///< or, of cards, of their rows:
+    gpu::Buffer row_begin;
+    gpu::Buffer row_points;
+    uint32_t row_edge = 0;  ///< CardRows::edge; 0: strands
+    gpu::Buffer turns;      ///< kTurnSlots times guide by guide, link by link: four signed 16 bit
+};
+
 /// One groom in motion: its guides, who follows them, and what the device gets each frame.
 struct GroomMotion {
     explicit GroomMotion(GuideSet guides) : motion(std::move(guides)) {}
 
     Entity entity;
     GuideMotion motion;
-    std::vector<uint32_t> strands;  ///< which strand each guide is
-    float spread = 0.0f;            ///< of GuideSelection
-    gpu::Buffer follow;             ///< StrandGuides by strand
-    gpu::Buffer strand_begin;       ///< or, of cards, of their rows:
-    gpu::Buffer row_begin;
-    gpu::Buffer row_points;
-    uint32_t row_edge = 0;  ///< CardRows::edge; 0: strands
-    gpu::Buffer turns;      ///< kTurnSlots times guide by guide, link by link: four signed 16 bit
+    std::vector<uint32_t> strands;           ///< which strand each guide is
+    float spread = 0.0f;                     ///< of GuideSelection
+    std::vector<StrandGuides> follow;        ///< by strand, where there are no buffers
+    std::unique_ptr<MotionBuffers> buffers;  ///< where there is a device
     uint32_t slot = 0;
     uint32_t previous_slot = 0;
     bool bent = false;  ///< strands differ from where their roots carry them
@@ -59,6 +65,8 @@ struct HairMotions {
 /// lines along the middle of some. Errors name the buffer that did not fit.
 Result<void> add_motion(World& world, gpu::Device& device, Entity hair,
                         const HairMotion& motion = {}, uint32_t guides = 0);
+/// The same of strands in worlds without a device: only the columns, solved on the processor.
+void add_motion(World& world, Entity hair, HairMotion motion, uint32_t guides = 0);
 /// Strands move rigidly from now on; false where they did before.
 bool remove_motion(World& world, Entity hair);
 
@@ -67,8 +75,10 @@ bool remove_motion(World& world, Entity hair);
 bool place_roots(const BoundRoots* bound, const HairPose* pose, const glm::dmat4& world,
                  GroomMotion& out, double& scale);
 
-/// Writes how guides' links are turned from where their roots carry them into the next slot, and
-/// notes whether any is (`bent`).
+/// How a guide's link is turned from where its root carries it, in the world.
+glm::quat link_turn(const GroomMotion& groom, uint32_t guide, uint32_t link);
+/// Writes these turns into the next slot, if there is a device, and notes whether any link is
+/// turned (`bent`).
 void write_turns(GroomMotion& groom);
 
 }  // namespace vellus::hair

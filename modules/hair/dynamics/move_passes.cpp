@@ -9,7 +9,7 @@ namespace {
 
 VkDeviceAddress turns_of(const GroomMotion& groom, uint32_t slot) {
     return groom.device ? groom.device->turns(slot)
-                        : groom.turns.address() + slot * groom.turn_bytes();
+                        : groom.buffers->turns.address() + slot * groom.turn_bytes();
 }
 
 struct Turns {
@@ -28,9 +28,9 @@ Turns turns_shown(GroomMotion& groom, uint64_t frame) {
 MovePush move_push(const HairDeform& deform, const GroomMotion& groom, const Turns& turns) {
     return {.points = deform.points,
             .previous_points = deform.previous_points,
-            .strand_begin = groom.strand_begin.address(),
+            .strand_begin = groom.buffers->strand_begin.address(),
             .parameters = deform.strands->parameters.address(),
-            .follow = groom.follow.address(),
+            .follow = groom.buffers->follow.address(),
             .turns = turns.now,
             .previous_turns = turns.previous,
             .strand_count = deform.strands->strand_count,
@@ -40,22 +40,22 @@ MovePush move_push(const HairDeform& deform, const GroomMotion& groom, const Tur
 MoveCardsPush cards_push(const HairDeform& deform, const GroomMotion& groom, const Turns& turns) {
     return {.points = deform.points,
             .previous_points = deform.previous_points,
-            .card_begin = groom.strand_begin.address(),
-            .row_begin = groom.row_begin.address(),
-            .row_points = groom.row_points.address(),
+            .card_begin = groom.buffers->strand_begin.address(),
+            .row_begin = groom.buffers->row_begin.address(),
+            .row_points = groom.buffers->row_points.address(),
             .parameters = deform.strands->parameters.address(),
-            .follow = groom.follow.address(),
+            .follow = groom.buffers->follow.address(),
             .turns = turns.now,
             .previous_turns = turns.previous,
             .card_count = deform.strands->strand_count,
             .links = groom.motion.guides().links,
-            .edge = groom.row_edge};
+            .edge = groom.buffers->row_edge};
 }
 
 void add_push(const HairDeform& deform, GroomMotion& groom, uint64_t frame,
               HairMotionPasses& passes) {
     const Turns turns = turns_shown(groom, frame);
-    if (groom.row_edge == 0) {
+    if (groom.buffers->row_edge == 0) {
         passes.pushes.push_back(move_push(deform, groom, turns));
     } else {
         passes.card_pushes.push_back(cards_push(deform, groom, turns));
