@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "game_demo/src/accuracy/budget.h"
+#include "game_demo/tools/accuracy/transmittance.h"
 #include "modules/hair/techniques.h"
 
 namespace vellus::demo {
@@ -63,6 +64,7 @@ using Variant = std::pair<std::string, std::string>;
 std::vector<Variant> variants_of_axis(std::string_view axis, bool quick) {
     std::vector<Variant> variants;
     for (const std::string_view technique : hair::technique_ids(axis)) {
+        if (technique == kTransmittance) continue;
         for (const auto& setting : settings_of(axis, technique, quick)) {
             variants.emplace_back(technique, setting);
         }

@@ -8,35 +8,11 @@
 #include "engine/platform/files.h"
 #include "game_demo/tools/accuracy/flip.h"
 #include "game_demo/tools/accuracy/pictures.h"
+#include "game_demo/tools/accuracy/transmittance.h"
 
 namespace vellus::demo {
 
 namespace {
-
-constexpr float kDark = 1e-4f;  // radiance that no transmittance can be told from
-
-/// Of the light that arrives unshadowed, what arrives; 1 where there is none.
-Radiance ratio(const Radiance& shadowed, const Radiance& unshadowed) {
-    Radiance result = shadowed;
-    for (size_t i = 0; i < result.pixels.size(); ++i) {
-        const float all = unshadowed.pixels[i].y;
-        const float rest = shadowed.pixels[i].y;
-        result.pixels[i] = glm::vec3(all > kDark ? std::clamp(rest / all, 0.0f, 1.0f) : 1.0f);
-    }
-    return result;
-}
-
-/// Pixels where any frame shows lit hair: elsewhere no technique says anything.
-std::vector<float> weight_where_lit(const std::vector<Radiance>& unshadowed,
-                                    const std::vector<float>& share) {
-    std::vector<float> weight(share.size(), 0.0f);
-    for (size_t i = 0; i < share.size(); ++i) {
-        const bool lit = std::ranges::any_of(
-            unshadowed, [&](const Radiance& frame) { return frame.pixels[i].y > kDark; });
-        if (lit) weight[i] = share[i];
-    }
-    return weight;
-}
 
 double mean_single_error(const DrawnFrames& drawn, const Reference& reference) {
     double total = 0.0;
@@ -104,26 +80,23 @@ bool Measure::is_of_this_run(const AccuracyRow& row) const {
 Result<DrawnFrames> Measure::draw(const Job& job) {
     auto groom = references_.groom(job.subject.groom);
     if (!groom) return groom.error();
+    if (auto added = add_transmittance(); !added) return added.error();
     return draw_frames(device_, **groom, frame_run(job, sizes_));
 }
 
-/// Pictures of direct light become what passes the hair: what arrives over what would arrive if
-/// nothing stood in between.
-Result<void> Measure::to_transmittance(const Job& job, DrawnFrames& drawn) {
+/// The frames of a job of axis shadow without any shadow.
+Result<const std::vector<Radiance>*> Measure::unshadowed(const Job& job) {
     const std::string of = job.subject.groom + job.subject.colour + job.subject.light;
     if (unshadowed_of_ != of) {
         Job bare = job;
         bare.technique = "none";
         bare.setting.clear();
-        auto unshadowed = draw(bare);
-        if (!unshadowed) return unshadowed.error();
-        unshadowed_ = std::move(unshadowed->pictures);
+        auto drawn = draw(bare);
+        if (!drawn) return drawn.error();
+        unshadowed_ = std::move(drawn->pictures);
         unshadowed_of_ = of;
     }
-    for (size_t i = 0; i < drawn.pictures.size(); ++i) {
-        drawn.pictures[i] = ratio(drawn.pictures[i], unshadowed_[i]);
-    }
-    return {};
+    return &unshadowed_;
 }
 
 Result<void> Measure::save_pictures(const Job& job, const Radiance& mean,
@@ -164,8 +137,9 @@ Result<AccuracyRow> Measure::run(const Job& job) {
     auto drawn = draw(job);
     if (!drawn) return drawn.error();
     if (job.axis == "shadow") {
-        if (auto done = to_transmittance(job, *drawn); !done) return done.error();
-        reference.weight = weight_where_lit(unshadowed_, reference.weight);
+        auto bare = unshadowed(job);
+        if (!bare) return bare.error();
+        to_transmittance(**bare, drawn->pictures, reference.weight);
     }
     const Radiance mean = mean_of(drawn->pictures);
     AccuracyRow row{.id = job.id(),

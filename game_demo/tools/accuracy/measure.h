@@ -22,7 +22,7 @@ class Measure {
 
   private:
     Result<DrawnFrames> draw(const Job& job);
-    Result<void> to_transmittance(const Job& job, DrawnFrames& drawn);
+    Result<const std::vector<Radiance>*> unshadowed(const Job& job);
     Result<void> save_pictures(const Job& job, const Radiance& mean, const Reference& reference,
                                AccuracyRow& row);
 

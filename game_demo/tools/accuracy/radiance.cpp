@@ -54,14 +54,11 @@ double relative_l2(const Radiance& picture, const Reference& reference) {
 }
 
 double mean_difference(const Radiance& picture, const Reference& reference) {
-    std::array<double, 2> totals{};
-    for (size_t i = 0; i < picture.pixels.size(); ++i) {
-        const double weight = reference.weight[i];
-        const float difference = picture.pixels[i].y - reference.picture.pixels[i].y;
-        totals[0] += weight * static_cast<double>(std::abs(difference));
-        totals[1] += weight;
-    }
-    return ratio(totals);
+    double total_weight = 0.0;
+    for (const float weight : reference.weight) total_weight += static_cast<double>(weight);
+    const auto totals =
+        block_totals(picture, reference, [](const glm::dvec3& c) { return std::abs(c.y); });
+    return ratio({totals[0], total_weight});
 }
 
 double relative_bias(const Radiance& picture, const Reference& reference) {

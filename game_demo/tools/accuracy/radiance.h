@@ -30,7 +30,8 @@ struct Reference {
 double relative_l1(const Radiance& picture, const Reference& reference);
 /// √(Σ (Σ w (a - b))² / Σ (Σ w b)²).
 double relative_l2(const Radiance& picture, const Reference& reference);
-/// Σ w |a - b| / Σ w of the green channel: mean |ΔV| where pictures are transmittances.
+/// Σ |Σ w (a - b)| / Σ w of the green channel, the inner sum over a block: mean |ΔV| where pictures
+/// are transmittances.
 double mean_difference(const Radiance& picture, const Reference& reference);
 /// Σ w (a - b) / Σ w |b|: how much too bright the picture is as a whole.
 double relative_bias(const Radiance& picture, const Reference& reference);

@@ -4,6 +4,7 @@
 
 #include "engine/asset/image_planes.h"
 #include "engine/platform/hash.h"
+#include "game_demo/tools/accuracy/transmittance.h"
 
 namespace vellus::demo {
 
@@ -94,10 +95,10 @@ FrameRun frame_run(const Job& job, const JobSizes& sizes) {
         run.choices = {{"shadow", "none", ""}};
     }
     // Transmittance is a ratio of two pictures whose pixels show the same segment: no history, and
-    // nothing but direct light.
+    // nothing but what arrives.
     if (job.axis == "shadow") {
         run.temporal = false;
-        run.choices = {{"multiple", "none", ""}};
+        run.choices = {{"multiple", "none", ""}, {"scattering", kTransmittance, ""}};
     }
     if (job.axis == "scattering") run.choices = {{"multiple", "none", ""}};
     if (job.axis == kFrameAxis) run.choices = base_choices();
@@ -189,7 +190,10 @@ Result<Reference> References::exact_shadow(const StudioGroom& groom, const Studi
     if (!scene) return scene.error();
     auto visible = trace_visible(*scene, sizes_.size, kVisibleRays, sizes_.seed);
     if (!visible) return visible.error();
-    return grey(visible->transmittance, std::move(visible->share), sizes_.size);
+    Reference reference = grey(visible->transmittance, std::move(visible->share), sizes_.size);
+    // Rays say yes or no, and a frame shows one strand a pixel: both have noise of their own.
+    reference.block = kTracedBlock;
+    return reference;
 }
 
 Result<Reference> References::best_technique(const StudioGroom& groom, const Job& job) {

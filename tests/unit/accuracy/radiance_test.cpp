@@ -29,6 +29,7 @@ TEST(AccuracyErrors, BlocksForgiveWhatEvensOutWithinThem) {
     EXPECT_DOUBLE_EQ(relative_l1(noisy, reference), 3.0 / 4.0);
     reference.block = 2;
     EXPECT_DOUBLE_EQ(relative_l1(noisy, reference), 1.0 / 4.0);
+    EXPECT_DOUBLE_EQ(mean_difference(noisy, reference), 1.0 / 4.0);
     reference.block = 4;
     EXPECT_DOUBLE_EQ(relative_l1(noisy, reference), 1.0 / 4.0);
 }
