@@ -16,7 +16,8 @@ using graph::Access;
 using graph::PassContext;
 using graph::PassKind;
 
-/// Layers reach this share of the largest groom deep: beyond, on a head's far side, all is dark.
+/// Layers but the last reach this share of the largest groom deep, the last all through it
+/// (kDeepReach): beyond, on a head's far side, little light is left to tell.
 constexpr float kSpan = 0.3f;
 
 /// DeepTarget of shaders/hair/shadow/deep_add.glsl.

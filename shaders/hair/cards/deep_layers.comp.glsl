@@ -18,8 +18,7 @@ layout(push_constant, scalar) uniform Push {
 bool hidden(ivec2 texel, float depth) { return false; }
 
 void fragment(ivec2 texel, float depth, float alpha, uint seed) {
-    // What stops a share alpha of the light has the optical depth -ln(1 - alpha).
-    deep_add(target, texel >> 1, depth, -0.25 * log(1.0 - min(alpha * alpha_scale, 0.999)));
+    deep_add(target, texel >> 1, depth, alpha * alpha_scale, 0.25);
 }
 
 #include "hair/cards/raster.glsl"

@@ -16,13 +16,14 @@ float deep_metres(DeepTarget target, float depth) {
     return target.sun != 0u ? (1.0 - depth) * target.range : target.range / max(depth, 1.0e-30);
 }
 
-void deep_add(DeepTarget target, ivec2 texel, float depth, float optical_depth) {
+/// `share` in [0, 1] of the light in `weight` of the texel is stopped at `depth`.
+void deep_add(DeepTarget target, ivec2 texel, float depth, float share, float weight) {
     uint word = uint(texel.y * target.size + texel.x) * kDeepWords;
     float behind = deep_metres(target, depth) -
                    deep_metres(target, uintBitsToFloat(target.layers.at[word]));
-    uint units = deep_units(optical_depth);
+    uint units = deep_units(weight * deep_optical_depth_of(share));
     if (units == 0u) return;
-    uint place = behind > 0.0 ? kDeepFirst + deep_place(behind, target.span).layer : kDeepBefore;
+    uint place = behind >= 0.0 ? kDeepFirst + deep_place(behind, target.span).layer : kDeepBefore;
     atomicAdd(target.layers.at[word + place], units);
 }
 

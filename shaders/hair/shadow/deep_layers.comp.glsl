@@ -14,7 +14,7 @@ layout(push_constant, scalar) uniform Push {
     float alpha;
 };
 
-void fragment(ivec2 texel, float depth, float coverage) { deep_add(target, texel, depth, coverage * alpha); }
+void fragment(ivec2 texel, float depth, float coverage) { deep_add(target, texel, depth, coverage * alpha, 1.0); }
 
 #include "hair/geometry/raster.glsl"
 

@@ -41,9 +41,9 @@ float deep_optical_depth(PunctualLight light, ivec2 texel, float metres, float o
     float front = shadow_metres(light, light.hair_range, uintBitsToFloat(light.hair_layers.at[word]));
     float before = float(light.hair_layers.at[word + kDeepBefore]);
     float behind = metres - front;
-    if (behind <= 0.0) {
+    if (behind < 0.0) {
         // How what lies before the front is spread is unknown: as over the first layer.
-        float first = 2.0 / float(kDeepLayers * (kDeepLayers + 1u)) * light.layers_span;
+        float first = 2.0 / float(kDeepLayers * (kDeepLayers - 1u)) * light.layers_span;
         return before * saturate(1.0 + behind / first) * (1.0 / kDeepUnit);
     }
     DeepPlace place = deep_place(behind, light.layers_span);
@@ -61,7 +61,7 @@ float deep_transmittance(PunctualLight light, vec3 p, float width) {
     float depth;
     if (uint64_t(light.hair_layers) == 0ul || !shadow_position(light.to_hair, p, uv, depth)) return 1.0;
     float metres = shadow_metres(light, light.hair_range, depth);
-    float own = width / (2.0 * shadow_texel_metres(light, light.hair_texel, metres));
+    float own = 0.75 * deep_optical_depth_of(width / (2.0 * shadow_texel_metres(light, light.hair_texel, metres)));
     vec2 texel = uv * float(light.layers_size) - 0.5;
     ivec2 low = max(ivec2(floor(texel)), ivec2(0));
     ivec2 high = min(ivec2(floor(texel)) + 1, ivec2(int(light.layers_size) - 1));

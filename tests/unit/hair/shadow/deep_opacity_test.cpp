@@ -9,15 +9,16 @@ namespace {
 
 constexpr float kSpan = 0.12f;
 
-/// Where layer k begins, by the formula of the header's first lines.
+/// Where layer k begins, by the header's first lines.
 double begin_of(uint32_t k) {
-    const double layers = glsl::kDeepLayers;
+    if (k == glsl::kDeepLayers) return kSpan / 0.3;
+    const double layers = glsl::kDeepLayers - 1.0;
     return kSpan * k * (k + 1.0) / (layers * (layers + 1.0));
 }
 
 TEST(DeepOpacity, PlacesDepthsBetweenTheEndsOfTheirLayer) {
     for (int i = 0; i <= 100'000; ++i) {
-        const float depth = kSpan * static_cast<float>(i) / 100'000.0f;
+        const float depth = kSpan / 0.3f * static_cast<float>(i) / 100'000.0f;
         const auto place = glsl::deep_place(depth, kSpan);
         ASSERT_LT(place.layer, glsl::kDeepLayers);
         const double begin = begin_of(place.layer);
@@ -28,7 +29,7 @@ TEST(DeepOpacity, PlacesDepthsBetweenTheEndsOfTheirLayer) {
 }
 
 TEST(DeepOpacity, DepthsBeyondTheLastLayerAreItsEnd) {
-    for (const float depth : {kSpan, 2.0f * kSpan, 1e30f}) {
+    for (const float depth : {kSpan / 0.3f, 4.0f * kSpan, 1e30f}) {
         const auto place = glsl::deep_place(depth, kSpan);
         EXPECT_EQ(place.layer, glsl::kDeepLayers - 1);
         EXPECT_FLOAT_EQ(place.share, 1.0f);
@@ -36,6 +37,16 @@ TEST(DeepOpacity, DepthsBeyondTheLastLayerAreItsEnd) {
     const auto front = glsl::deep_place(0.0f, kSpan);
     EXPECT_EQ(front.layer, 0u);
     EXPECT_EQ(front.share, 0.0f);
+}
+
+TEST(DeepOpacity, StrandsThatCoverAShareOfATexelLetTheRestThroughEach) {
+    for (const float share : {0.01f, 0.2f, 0.7f}) {
+        const float five = 5.0f * glsl::deep_optical_depth_of(share);
+        EXPECT_NEAR(std::exp(-five), std::pow(1.0f - share, 5.0f), 1e-5f) << share;
+    }
+    EXPECT_EQ(glsl::deep_optical_depth_of(-1.0f), 0.0f);
+    // A texel that is covered all over passes a thousandth: units are finite.
+    EXPECT_NEAR(std::exp(-glsl::deep_optical_depth_of(2.0f)), 1e-3f, 1e-5f);
 }
 
 TEST(DeepOpacity, UnitsRoundAndNeverGoNegative) {

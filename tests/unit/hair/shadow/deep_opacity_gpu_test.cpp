@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "tests/support/hair_scene.h"
+
+// What technique deep_opacity lets through a slab of strands, against Beer and Lambert's law.
+namespace vellus::hair {
+namespace {
+
+using test::HairScene;
+
+constexpr uint32_t kSize = 128;
+constexpr float kFov = 0.38f;
+constexpr size_t kBands = 6;
+constexpr float kHalf = 0.1f;        // of the slab's height and width
+constexpr float kThickness = 0.04f;  // away from the eye
+constexpr float kFront = -0.5f;
+constexpr float kLength = 0.03f;  // of a strand
+constexpr float kWidth = 0.0006f;
+constexpr uint32_t kSlabs = 8;
+
+/// Short strands along x, anywhere in a slab that light comes down through. To its middle they have
+/// an optical depth of `most`.
+StrandData slab(float most, uint32_t seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+    const float count = most * kThickness * 4.0f * (kHalf + kLength) / (kWidth * kLength);
+    std::vector<std::vector<glm::vec3>> strands;
+    for (int i = 0; i < static_cast<int>(count); ++i) {
+        const float x = (2.0f * unit(random) - 1.0f) * (kHalf + kLength) - 0.5f * kLength;
+        const float y = (2.0f * unit(random) - 1.0f) * kHalf;
+        const float z = kFront - kThickness * unit(random);
+        const float from = std::max(x, -kHalf);
+        const float to = std::min(x + kLength, kHalf);
+        if (to > from) strands.push_back({{from, y, z}, {to, y, z}});
+    }
+    return test::make_strands(strands, kWidth);
+}
+
+std::vector<glm::vec4> draw(gpu::Device& device, const StrandData& strands, ShadowTechnique shadow,
+                            uint32_t map) {
+    HairScene scene(device, kSize, kSize);
+    scene.world.resource<light::ShadowSettings>() = {.size = map, .fit_to_picture = false};
+    scene.world.get<scene::Camera>(scene.camera)->vertical_fov = kFov;
+    scene.add_sun({0, 1, 0});
+    HairExtension look;
+    look.material.color_variation = 0.0f;
+    look.width.tip_scale = 1.0f;
+    scene.add_hair(strands, look,
+                   {.opacity = OpacityTechnique::kDitherStill,
+                    .shadow = shadow,
+                    .multiple = MultipleTechnique::kNone,
+                    .environment = EnvironmentTechnique::kNone});
+    scene.build();
+    return scene.draw();
+}
+
+/// Depth below the slab's top in slab halves that a row of the picture shows, half way through.
+double depth_of_row(uint32_t row) {
+    const double slope = std::tan(kFov / 2) * (1.0 - 2.0 * (row + 0.5) / kSize);
+    return 1.0 + slope * (static_cast<double>(kFront) - 0.5 * static_cast<double>(kThickness)) /
+                     static_cast<double>(kHalf);
+}
+
+struct Band {
+    double through = 0.0;  ///< sum of what strands' pixels get of the light
+    double depth = 0.0;    ///< sum of their depths, in slab halves
+    double count = 0.0;
+};
+
+void add_rows(const std::vector<glm::vec4>& lit, const std::vector<glm::vec4>& shaded,
+              std::array<Band, kBands>& bands) {
+    for (uint32_t i = 0; i < kSize * kSize; ++i) {
+        const double depth = depth_of_row(i / kSize);
+        if (lit[i].g <= 0.0f || depth <= 0.0 || depth >= 1.0) continue;
+        Band& band = bands[static_cast<size_t>(depth * kBands)];
+        band.through += static_cast<double>(shaded[i].g / lit[i].g);
+        band.depth += depth;
+        band.count += 1.0;
+    }
+}
+
+class DeepOpacityTest : public test::GpuTest {};
+
+TEST_F(DeepOpacityTest, ASlabLetsThroughWhatBeerAndLambertSay) {
+    for (const float most : {1.0f, 3.0f}) {
+        // Texels from three strands wide to less than two.
+        for (const uint32_t map : {256U, 512U}) {
+            std::array<Band, kBands> bands;
+            for (uint32_t seed = 0; seed < kSlabs; ++seed) {
+                const StrandData strands = slab(most, seed);
+                add_rows(draw(device(), strands, ShadowTechnique::kNone, map),
+                         draw(device(), strands, ShadowTechnique::kDeepOpacity, map), bands);
+            }
+            for (size_t i = 0; i < kBands; ++i) {
+                const Band& band = bands[i];
+                ASSERT_GT(band.count, 3000.0);
+                const double law = std::exp(-static_cast<double>(most) * band.depth / band.count);
+                // Eight slabs of strands that lie by chance: a standard error of 0.01.
+                EXPECT_NEAR(band.through / band.count, law, 0.03)
+                    << "band " << i << ", depth " << most << ", map " << map;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace vellus::hair
