@@ -17,6 +17,9 @@ using glm::dvec3;
 
 constexpr size_t kKeys = 48;
 constexpr double kSeconds = 8.0;
+constexpr size_t kStrideKeys = 32;
+/// Whom the user walks: in front of everybody, with hair that moves.
+constexpr size_t kPlayer = 1;
 
 struct Person {
     double x, z, yaw, scale;
@@ -59,14 +62,22 @@ Pose pose_of(size_t person, double phase) {
     return pose;
 }
 
-std::vector<Track> add_person(GltfScene& scene, size_t index, const std::vector<Json>& geometry,
-                              const std::vector<size_t>& shared_materials) {
+Rig add_person(GltfScene& scene, size_t index, const std::vector<Json>& geometry,
+               const std::vector<size_t>& shared_materials) {
     const Person& who = kPeople[index];
     const std::string number = std::to_string(index + 1);
-    const Node node = scene.add_node({{"name", "person_" + number},
-                                      {"translation", {who.x, 0.0, who.z}},
-                                      {"rotation", list(turn_about({0.0, 1.0, 0.0}, who.yaw))},
-                                      {"scale", {who.scale, who.scale, who.scale}}});
+    Json place = {{"name", "person_" + number},
+                  {"translation", {who.x, 0.0, who.z}},
+                  {"rotation", list(turn_about({0.0, 1.0, 0.0}, who.yaw))},
+                  {"scale", {who.scale, who.scale, who.scale}}};
+    if (index == kPlayer) {
+        const Gait gait;
+        place["extensions"]["VELLUS_player"] = {
+            {"idle", "idle"},
+            {"walk", "walk"},
+            {"speed", who.scale * gait.stride_metres / gait.stride_seconds}};
+    }
+    const Node node = scene.add_node(place);
     const Rig rig = scene.add_rig(figure_joints(), node, number + "_");
     Json look = {{"width", {{"root", who.width}, {"tip_scale", 0.45}}},
                  {"material",
@@ -95,8 +106,33 @@ std::vector<Track> add_person(GltfScene& scene, size_t index, const std::vector<
     scene.add_node({{"name", "body_" + number},
                     {"mesh", scene.add_mesh("figure_" + number, std::move(primitives))},
                     {"skin", skin}});
-    return GltfScene::tracks_of(
-        rig, kKeys, [&](size_t key) { return pose_of(index, static_cast<double>(key) / kKeys); });
+    return rig;
+}
+
+std::vector<double> key_times(size_t keys, double seconds) {
+    std::vector<double> times;
+    for (size_t key = 0; key <= keys; ++key) {
+        times.push_back(seconds * static_cast<double>(key) / static_cast<double>(keys));
+    }
+    return times;
+}
+
+/// Everybody at ease, and the player's walk in place.
+void add_clips(GltfScene& scene, const std::vector<Rig>& rigs) {
+    std::vector<Track> tracks;
+    for (size_t person = 0; person < rigs.size(); ++person) {
+        for (Track& track : GltfScene::tracks_of(rigs[person], kKeys, [&](size_t key) {
+                 return pose_of(person, static_cast<double>(key) / kKeys);
+             })) {
+            tracks.push_back(std::move(track));
+        }
+    }
+    scene.add_clip("idle", key_times(kKeys, kSeconds), tracks);
+    const Gait gait;
+    scene.add_clip("walk", key_times(kStrideKeys, gait.stride_seconds),
+                   GltfScene::tracks_of(rigs[kPlayer], kStrideKeys, [&](size_t key) {
+                       return walk_pose(gait, static_cast<double>(key) / kStrideKeys);
+                   }));
 }
 
 }  // namespace
@@ -111,20 +147,14 @@ GltfScene make_crowd_scene(const std::vector<SkinnedPart>& figure) {
     const std::vector<size_t> shared = {
         scene.add_material("shoes", figure[3].base_color, figure[3].roughness),
         scene.add_material("eyes", figure[4].base_color, figure[4].roughness)};
-    std::vector<Track> tracks;
+    std::vector<Rig> rigs;
     for (size_t person = 0; person < kPeople.size(); ++person) {
-        for (Track& track : add_person(scene, person, geometry, shared)) {
-            tracks.push_back(std::move(track));
-        }
+        rigs.push_back(add_person(scene, person, geometry, shared));
     }
     scene.add_ground({.path_radius = 5.0, .path_width = 1.6, .center = {0.0, 0.0, 1.2}});
     scene.add_camera({0.38, 1.48, 4.35}, {0.02, 0.93, -0.60}, 0.62);
     scene.add_sun({0.45, 0.62, 0.64}, {1.0, 0.93, 0.82}, 3.2);
-    std::vector<double> times;
-    for (size_t key = 0; key <= kKeys; ++key) {
-        times.push_back(kSeconds * static_cast<double>(key) / kKeys);
-    }
-    scene.add_clip("idle", times, tracks);
+    add_clips(scene, rigs);
     return scene;
 }
 

@@ -103,10 +103,17 @@ void Player::update(World& world, const glm::dvec3& wish, double camera_yaw, dou
     node.translation.y = ground_.height(at.x, at.z, at.y + kHighestStep).value_or(at.y);
     auto& clips = *world.get<character::AnimationPlayer>(instance_root_);
     const double walking = std::clamp(speed_ / clip_speed_, 0.0, 1.0);
-    clips.animation = walk_;
-    clips.speed = walking;  // Feet keep to the ground they pass.
-    clips.other = idle_;
-    clips.mix = walk_ == idle_ ? 0.0f : static_cast<float>(1.0 - std::min(2.0 * walking, 1.0));
+    // The walk lies over the idle clip, which may move others of the scene as well; feet keep to
+    // the ground they pass.
+    clips.animation = idle_;
+    clips.other = walk_;
+    clips.other_speed = walking;
+    if (walk_ == idle_) {
+        clips.speed = walking;
+        clips.mix = 0.0f;
+    } else {
+        clips.mix = static_cast<float>(std::min(2.0 * walking, 1.0));
+    }
 }
 
 glm::dvec3 Player::position(World& world) const {

@@ -76,7 +76,7 @@ void animate(Query<const scene::InstanceRoot, AnimationPlayer> players,
                       player.mix);
             }
             player.time += step->dt * player.speed;
-            player.other_time += step->dt;
+            player.other_time += step->dt * player.other_speed;
         },
         4);
 }

@@ -13,9 +13,11 @@ struct AnimationPlayer {
     double phase = 0.0;  ///< seconds ahead of `time`, so that a crowd is out of step
     double speed = 1.0;
     bool loop = true;
-    /// A second clip mixed in, always looping: 0 is `animation` alone, 1 the other alone.
+    /// A second clip mixed in, always looping: with `mix` 0 it is `animation` alone; with 1 the
+    /// other alone has the nodes it animates, `animation` the rest.
     uint32_t other = asset::kNone;
     double other_time = 0.0;
+    double other_speed = 1.0;
     float mix = 0.0f;
 };
 

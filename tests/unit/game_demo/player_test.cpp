@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/asset/gltf.h"
 #include "engine/ecs/schedule.h"
 #include "modules/character/components.h"
 #include "modules/character/register.h"
@@ -117,6 +118,73 @@ TEST_F(PlayerTest, AMissingClipIsAnErrorThatNamesIt) {
     ASSERT_FALSE(player);
     EXPECT_NE(player.error().message().find("\"run\""), std::string::npos);
     EXPECT_NE(player.error().message().find("hero.gltf"), std::string::npos);
+}
+
+/// The project's own crowd without its hair.
+class Crowd {
+  public:
+    Crowd() {
+        auto asset = asset::load_gltf(VELLUS_SOURCE_DIR "/assets/scenes/crowd.gltf");
+        const auto instance =
+            scene::instantiate(world_, std::make_shared<asset::SceneAsset>(*std::move(asset)));
+        const auto& library = world_.resource<scene::SceneLibrary>();
+        world_.add(library.instances[*instance].root, character::AnimationPlayer{});
+        scene::register_scene(world_, schedule_);
+        character::register_character(world_, schedule_);
+        EXPECT_TRUE(schedule_.build(world_));
+        schedule_.run(world_);
+        auto found = Player::find(world_);
+        EXPECT_TRUE(found && *found);
+        player_ = std::move(*found);
+    }
+    void walk(const glm::dvec3& wish, int frames) {
+        for (int i = 0; i < frames; ++i) {
+            player_->update(world_, wish, 0.0, kStep);
+            schedule_.run(world_);
+        }
+    }
+    glm::dmat4 place(const std::string& name) {
+        const auto& library = world_.resource<scene::SceneLibrary>();
+        const auto& nodes = library.asset_of(library.instances[0]).nodes;
+        for (uint32_t i = 0; i < nodes.size(); ++i) {
+            if (nodes[i].name != name) continue;
+            return world_.get<scene::WorldTransform>(library.entity(0, i))->matrix;
+        }
+        ADD_FAILURE() << name;
+        return glm::dmat4(1.0);
+    }
+
+  private:
+    World world_;
+    Schedule schedule_{"frame"};
+    std::unique_ptr<Player> player_;
+};
+
+double apart(const glm::dmat4& a, const glm::dmat4& b) {
+    double most = 0.0;
+    for (int i = 0; i < 4; ++i) most = std::max(most, glm::length(a[i] - b[i]));
+    return most;
+}
+
+TEST(CrowdPlayer, OneOfTheNineWalksAndTheOthersKeepTheirOwnTime) {
+    Crowd walked;
+    Crowd left_alone;
+    walked.walk({0.0, 0.0, 1.0}, 120);
+    left_alone.walk({}, 120);
+    const double way =
+        glm::length(glm::dvec3(walked.place("person_2")[3] - left_alone.place("person_2")[3]));
+    // Two seconds at 1.1 m/s, less the turn and the start.
+    EXPECT_GT(way, 1.5);
+    EXPECT_LT(way, 2.4);
+    EXPECT_GT(apart(walked.place("2_shin_l"), left_alone.place("2_shin_l")), 1.0);
+    for (const char* person : {"1", "3", "4", "5", "6", "7", "8", "9"}) {
+        const std::string head = std::string(person) + "_head";
+        EXPECT_LT(apart(walked.place(head), left_alone.place(head)), 1e-6) << head;
+    }
+    // Out of step with each other: heads of equal people would be turned alike.
+    EXPECT_GT(apart(glm::dmat4(glm::dmat3(walked.place("1_head"))),
+                    glm::dmat4(glm::dmat3(walked.place("3_head")))),
+              0.01);
 }
 
 TEST(PlayerExtensionTest, RefusesWhatIsNoClipAndNoSpeed) {
