@@ -24,6 +24,9 @@ constexpr uint32_t kStillSteps = 30;
 // Where speeds are not known: 2.5 s without anything to stir it.
 constexpr uint32_t kQuietSteps = 600;
 constexpr double kMoved = 1e-6;
+// Before hair is first seen: two seconds, still every 1/30 s.
+constexpr uint32_t kSettleSteps = 8;
+constexpr int kSettleRounds = 60;
 
 double angle_between(const glm::dquat& a, const glm::dquat& b) {
     const glm::dquat d = glm::conjugate(a) * b;
@@ -45,6 +48,27 @@ bool same(const WorldCapsule& a, const WorldCapsule& b) {
 
 glm::vec4 to_vec4(const glm::dquat& q) {
     return glm::vec4(q.x, q.y, q.z, q.w);
+}
+
+/// Whether any guide lies in a capsule by more than hair's own room over the scalp.
+bool touches_capsules(const GuideSet& guides, const GuideState& state, const MotionFrame& frame) {
+    for (uint32_t g = 0; g < guides.count; ++g) {
+        const RootPose& root = frame.roots[g];
+        bool inside = false;
+        uint32_t links = 0;
+        visit_guide_points(guides, state, g, [&](const glm::vec3& point) {
+            if (inside || links++ <= guides.links / 4) return;
+            const glm::dvec3 at = root.place + root.turn * (frame.scale * glm::dvec3(point));
+            inside = std::ranges::any_of(frame.capsules, [&](const WorldCapsule& c) {
+                const glm::dvec3 axis = c.b - c.a;
+                const double along =
+                    glm::dot(at - c.a, axis) / std::max(glm::dot(axis, axis), 1e-12);
+                return glm::distance(at, c.a + axis * glm::clamp(along, 0.0, 1.0)) < c.radius;
+            });
+        });
+        if (inside) return true;
+    }
+    return false;
 }
 
 double sane(double dt) {
@@ -97,6 +121,24 @@ void GuideMotion::begin(const MotionFrame& frame) {
     fresh_ = true;
 }
 
+/// Lets hair that begins inside capsules come to rest on them, in no time: pushed out in the frames
+/// that are seen it would fly off. Speeds are forgotten every few steps, so it creeps and does not
+/// swing.
+void GuideMotion::settle(const MotionSettings& settings, const MotionFrame& frame) {
+    if (!touches_capsules(guides_, state_, frame)) return;
+    MotionFrame still = frame;
+    still.wind.velocity = glm::vec3(0.0f);
+    set_params(settings, still, kSettleSteps, true);
+    take_capsules(frame, 1.0, true);
+    take_roots(frame, 1.0, true);
+    work_.params.memory = 0.0f;
+    for (int round = 0; round < kSettleRounds; ++round) {
+        simulate(guides_, work_.params, work_.roots, work_.capsules, state_);
+    }
+    std::ranges::fill(state_.velocity.data, 0.0f);
+    fresh_ = true;
+}
+
 const MotionWork& GuideMotion::prepare(const MotionSettings& settings, const MotionFrame& given) {
     MotionFrame frame = given;
     assert(frame.roots.size() == guides_.count);
@@ -105,7 +147,11 @@ const MotionWork& GuideMotion::prepare(const MotionSettings& settings, const Mot
     if (guides_.count == 0) return work_;
     if (!preloaded_) preload(frame);
     const bool began = !started_;
-    if (began) begin(frame);
+    if (began) {
+        begin(frame);
+        settle(settings, frame);
+        work_.params.substeps = 0;
+    }
     if (asleep_) {
         if (!disturbed(settings, frame)) {
             ++counts_.asleep;
@@ -164,7 +210,8 @@ void GuideMotion::set_params(const MotionSettings& settings, const MotionFrame& 
     p.hold = std::clamp(settings.hold, 0.0f, 100.0f);
     p.friction = std::clamp(settings.friction, 0.0f, 1000.0f);
     p.inertia = 1.0f;
-    // Hair that was not there a frame ago goes along with its root, as fast as that turns out to be.
+    // Hair that was not there a frame ago goes along with its root, as fast as that turns out to
+    // be.
     p.memory = fresh_ ? 0.0f : 1.0f;
     fresh_ = unmoved;
     p.scale = static_cast<float>(frame.scale);

@@ -58,7 +58,8 @@ struct MotionWork {
 
 /// Guides of one groom in motion, on the CPU. Everything near 1 in size reaches the solver: roots
 /// and capsules are taken in double relative to the first root. The groom is taken to rest as it is
-/// in the first frame's pose: set_preload with that frame's roots.
+/// in the first frame's pose: set_preload with that frame's roots. Where that pose has capsules in
+/// it, for a body does not stand as it was groomed, hair comes to rest on them before it is seen.
 class GuideMotion {
   public:
     explicit GuideMotion(GuideSet guides);
@@ -83,6 +84,7 @@ class GuideMotion {
     [[nodiscard]] bool disturbed(const MotionSettings& settings, const MotionFrame& frame) const;
     void preload(const MotionFrame& frame);
     void begin(const MotionFrame& frame);
+    void settle(const MotionSettings& settings, const MotionFrame& frame);
     void set_params(const MotionSettings& settings, const MotionFrame& frame, uint32_t steps,
                     bool unmoved);
     void take_roots(const MotionFrame& frame, double share, bool carry);
