@@ -37,6 +37,7 @@ std::vector<glm::dvec3> drawn_points(gpu::Device& device) {
         device, std::as_writable_bytes(std::span(points))));
     const glm::dvec3 camera = world.resource<scene::ViewState>().pose.position;
     std::vector<glm::dvec3> placed;
+    placed.reserve(points.size());
     for (const glm::vec3& point : points) {
         placed.push_back(deform.anchor - camera + glm::dvec3(point));
     }
