@@ -158,8 +158,9 @@ size_t assemble(int mode, Primitive& primitive) {
 size_t vertex_bytes(const Primitive& primitive) {
     size_t columns = 0;
     for (const VertexColumn& column : primitive.columns) columns += column.components;
-    return columns * sizeof(float) + sizeof(glm::vec3) * (2 + 2 * primitive.morph_targets.size()) + sizeof(glm::vec2) +
-           2 * sizeof(glm::vec4) + sizeof(glm::u16vec4) + sizeof(float) + sizeof(uint32_t);
+    return columns * sizeof(float) + sizeof(glm::vec3) * (2 + 2 * primitive.morph_targets.size()) +
+           sizeof(glm::vec2) + 2 * sizeof(glm::vec4) + sizeof(glm::u16vec4) + sizeof(float) +
+           sizeof(uint32_t);
 }
 
 void separate_vertices(Primitive& primitive) {
@@ -175,8 +176,8 @@ void separate_vertices(Primitive& primitive) {
         std::vector<float> values;
         values.reserve(indices.size() * column.components);
         for (const uint32_t index : indices) {
-            const auto first =
-                column.values.begin() + static_cast<std::ptrdiff_t>(index * column.components);
+            const auto first = column.values.begin() +
+                               static_cast<std::ptrdiff_t>(size_t{index} * column.components);
             values.insert(values.end(), first, first + column.components);
         }
         column.values = std::move(values);
