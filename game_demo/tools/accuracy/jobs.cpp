@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "engine/platform/files.h"
+#include "engine/platform/hash.h"
 #include "game_demo/src/accuracy/budget.h"
 #include "game_demo/tools/accuracy/transmittance.h"
 #include "modules/hair/techniques.h"
@@ -104,6 +106,16 @@ bool is_told_elsewhere(const std::string& axis, const AxisPictures& pictures,
     return colour != kColourOfSettings;
 }
 
+/// Of the program's own file: shaders are in it, so another build's results are not taken for this
+/// one's. 0 where it cannot be read.
+uint32_t program_fingerprint() {
+    static const auto fingerprint = [] {
+        const auto program = read_file("/proc/self/exe");
+        return program ? static_cast<uint32_t>(fnv1a(*program)) : 0U;
+    }();
+    return fingerprint;
+}
+
 bool wanted(const Names& only, const std::string& name) {
     return only.empty() || std::ranges::find(only, name) != only.end();
 }
@@ -159,8 +171,9 @@ JobSizes job_sizes(const AccuracyOptions& options) {
 }
 
 std::string describe(const JobSizes& sizes) {
-    return fmt::format("size {} frames {}+{} spp {} strands {} seed {}", sizes.size, sizes.warm_up,
-                       sizes.frames, sizes.samples, sizes.strands, sizes.seed);
+    return fmt::format("size {} frames {}+{} spp {} strands {} seed {} program {:08x}", sizes.size,
+                       sizes.warm_up, sizes.frames, sizes.samples, sizes.strands, sizes.seed,
+                       program_fingerprint());
 }
 
 std::vector<Job> all_jobs(const AccuracyOptions& options) {

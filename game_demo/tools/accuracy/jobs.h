@@ -53,7 +53,8 @@ struct JobSizes {
     uint64_t seed = 0;
 };
 JobSizes job_sizes(const AccuracyOptions& options);
-/// All that decides a result besides the job and the device.
+/// All that decides a result besides the job and the device: the sizes, and a fingerprint of the
+/// program.
 std::string describe(const JobSizes& sizes);
 
 /// The jobs asked for, without regard to the shard: jobs of one subject follow each other. The
