@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "modules/hair/cards/card_buffers.h"
+#include "modules/hair/environment/ambient_pieces.h"
 #include "modules/hair/geometry/strand_buffers.h"
 #include "modules/hair/groom/groom_report.h"
 #include "modules/hair/groom/hair_material.h"
@@ -43,6 +44,8 @@ struct LibraryGroom {
     std::vector<uint32_t> strand_begin;
     /// Of cards: CardGroom::parameters.
     std::vector<uint16_t> card_parameters;
+    /// Of cards: what their ambient depths are made of, until they are.
+    AmbientPieces card_pieces;
     /// See StrandData::levels.
     std::vector<StrandLevel> levels;
     /// Length of all strands over the area they are seen on from the side, 1/metres: layers of hair

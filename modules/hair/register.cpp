@@ -4,6 +4,7 @@
 #include "modules/hair/binding/deform_passes.h"
 #include "modules/hair/dynamics/move_hair.h"
 #include "modules/hair/dynamics/move_passes.h"
+#include "modules/hair/environment/ambient_upload.h"
 #include "modules/hair/geometry/hair_passes.h"
 #include "modules/light/environment.h"
 #include "modules/scene/stages.h"
@@ -38,7 +39,8 @@ void register_hair(World& world, Schedule& schedule) {
         .in(scene::kGather)
         .after(light::gather_lights)
         .after(light::gather_environment);
-    schedule.add(assign_hair_points).in(scene::kGather).after(gather_hair);
+    schedule.add(upload_ambient_depths).in(scene::kGather).after(gather_hair);
+    schedule.add(assign_hair_points).in(scene::kGather).after(upload_ambient_depths);
     schedule.add(assign_hair_shadows).in(scene::kGather).after(assign_hair_points);
     schedule.add(describe_hair_deformation).in(scene::kStrands);
     schedule.add(describe_hair_motion).in(scene::kStrands).after(describe_hair_deformation);

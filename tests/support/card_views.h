@@ -51,6 +51,8 @@ class CardViews {
 
     World& world() { return world_; }
     graph::Executor& executor() { return *executor_; }
+    /// The entity that wears the groom.
+    [[nodiscard]] Entity hair() const { return hair_; }
 
     /// Shows another groom of the world's library from now on.
     void show(uint32_t groom) { world_.get<hair::Hair>(hair_)->groom = groom; }

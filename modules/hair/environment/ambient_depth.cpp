@@ -29,6 +29,11 @@ struct Grid {
                    static_cast<size_t>(size.x) +
                static_cast<size_t>(c.x);
     }
+    [[nodiscard]] float volume() const { return cell * cell * cell; }
+    /// The cell at `p`, in cells, or the nearest to it.
+    glm::vec3& near(const glm::vec3& p) {
+        return area[index(glm::clamp(glm::ivec3(glm::floor(p)), glm::ivec3(0), size - 1))];
+    }
     /// Between the centres of eight cells; `p` in cells.
     [[nodiscard]] glm::vec3 at(const glm::vec3& p) const {
         const glm::vec3 q = p - 0.5f;
@@ -60,48 +65,82 @@ Grid empty_grid(const glm::ivec3& size, float cell) {
     return grid;
 }
 
-void add_strands(const StrandData& strands, float width, const glm::vec3& origin, Grid& grid) {
-    const float volume = grid.cell * grid.cell * grid.cell;
-    for (const uint32_t first : strands.segment_point) {
-        const glm::vec3 a = strands.positions[first];
-        const glm::vec3 along = strands.positions[first + 1] - a;
-        const float length = glm::length(along);
-        if (length <= 0.0f) continue;
-        const glm::vec3 d = along / length;
-        const int steps = std::max(1, static_cast<int>(std::ceil(2.0f * length / grid.cell)));
-        const glm::vec3 seen = glm::sqrt(glm::max(1.0f - d * d, 0.0f)) *
-                               (length * width / (volume * static_cast<float>(steps)));
-        for (int i = 0; i < steps; ++i) {
-            const float t = (static_cast<float>(i) + 0.5f) / static_cast<float>(steps);
-            const glm::ivec3 c((a + t * along - origin) / grid.cell);
-            grid.area[grid.index(glm::clamp(c, glm::ivec3(0), grid.size - 1))] += seen;
+/// Roots of strands or cards: points[begin[i]].
+struct Roots {
+    std::span<const glm::vec3> points;
+    std::span<const uint32_t> begin;
+
+    [[nodiscard]] size_t count() const { return begin.empty() ? 0 : begin.size() - 1; }
+    [[nodiscard]] glm::vec3 at(size_t i) const { return points[begin[i]]; }
+};
+
+void add_segment(const glm::vec3& a, const glm::vec3& along, float width, const glm::vec3& origin,
+                 Grid& grid) {
+    const float length = glm::length(along);
+    if (length <= 0.0f) return;
+    const glm::vec3 d = along / length;
+    const int steps = std::max(1, static_cast<int>(std::ceil(2.0f * length / grid.cell)));
+    const glm::vec3 seen = glm::sqrt(glm::max(1.0f - d * d, 0.0f)) *
+                           (length * width / (grid.volume() * static_cast<float>(steps)));
+    for (int i = 0; i < steps; ++i) {
+        const float t = (static_cast<float>(i) + 0.5f) / static_cast<float>(steps);
+        grid.near((a + t * along - origin) / grid.cell) += seen;
+    }
+}
+
+void add_strands(const Roots& strands, float width, const glm::vec3& origin, Grid& grid) {
+    for (size_t s = 0; s < strands.count(); ++s) {
+        for (uint32_t i = strands.begin[s]; i + 1 < strands.begin[s + 1]; ++i) {
+            const glm::vec3 a = strands.points[i];
+            add_segment(a, strands.points[i + 1] - a, width, origin, grid);
+        }
+    }
+}
+
+void add_pieces(const AmbientPieces& pieces, const glm::vec3& origin, Grid& grid) {
+    for (size_t i = 0; i < pieces.at.size(); ++i) {
+        grid.near((pieces.at[i] - origin) / grid.cell) += pieces.area[i] / grid.volume();
+    }
+}
+
+/// A disc of skin, one cell thick; `at` and `radius` in cells.
+void add_disc(const glm::vec3& at, const glm::vec3& normal, float radius, Grid& grid) {
+    const int reach = static_cast<int>(std::ceil(radius));
+    for (int z = -reach; z <= reach; ++z) {
+        for (int y = -reach; y <= reach; ++y) {
+            for (int x = -reach; x <= reach; ++x) {
+                const glm::vec3 offset(x, y, z);
+                const bool inside = glm::dot(offset, offset) <= radius * radius &&
+                                    std::abs(glm::dot(offset, normal)) <= 0.6f;
+                if (inside) grid.near(at + offset) = glm::vec3(kSkinDepth / grid.cell);
+            }
         }
     }
 }
 
 /// Cells just below the roots, where these stand around something.
-void add_skin(const StrandData& strands, const glm::vec3& origin, Grid& grid) {
+void add_skin(const Roots& roots, const glm::vec3& origin, Grid& grid) {
     glm::vec3 low(std::numeric_limits<float>::max());
     glm::vec3 high(-low);
     glm::dvec3 sum(0.0);
-    for (size_t s = 0; s < strands.strand_count(); ++s) {
-        const glm::vec3 root = strands.positions[strands.strand_begin[s]];
-        low = glm::min(low, root);
-        high = glm::max(high, root);
-        sum += root;
+    for (size_t i = 0; i < roots.count(); ++i) {
+        low = glm::min(low, roots.at(i));
+        high = glm::max(high, roots.at(i));
+        sum += roots.at(i);
     }
     const glm::vec3 sides = high - low;
     const float longest = std::max({sides.x, sides.y, sides.z});
     if (std::min({sides.x, sides.y, sides.z}) < 0.4f * longest) return;
-    const glm::vec3 middle(sum / static_cast<double>(strands.strand_count()));
-    for (size_t s = 0; s < strands.strand_count(); ++s) {
-        const glm::vec3 root = strands.positions[strands.strand_begin[s]];
+    const glm::vec3 middle(sum / static_cast<double>(roots.count()));
+    // Discs with as much area as the ball around the middle leave no holes where hair grows.
+    const float share = 2.0f / std::sqrt(static_cast<float>(roots.count()));
+    for (size_t i = 0; i < roots.count(); ++i) {
+        const glm::vec3 root = roots.at(i);
         const float distance = glm::distance(middle, root);
         if (distance <= 3.0f * grid.cell) continue;
-        const glm::vec3 below = root + (middle - root) * (2.0f * grid.cell / distance);
-        const glm::ivec3 c((below - origin) / grid.cell);
-        grid.area[grid.index(glm::clamp(c, glm::ivec3(0), grid.size - 1))] =
-            glm::vec3(kSkinDepth / grid.cell);
+        const glm::vec3 inward = (middle - root) / distance;
+        const glm::vec3 below = root + inward * (2.0f * grid.cell);
+        add_disc((below - origin) / grid.cell, inward, share * distance / grid.cell, grid);
     }
 }
 
@@ -118,14 +157,14 @@ Grid halved(const Grid& from) {
     return grid;
 }
 
-Volume build_volume(const StrandData& strands, float width) {
-    const glm::vec3 size = strands.bounds.size();
+/// Without area but that of skin.
+Volume empty_volume(const Roots& roots) {
+    Bounds bounds;
+    for (const glm::vec3& p : roots.points) bounds.add(p);
+    const glm::vec3 size = bounds.size();
     const float cell = std::max(std::max({size.x, size.y, size.z}) / kCells, 1e-6f);
-    Volume volume{.origin = strands.bounds.low - cell, .mips = {}};
+    Volume volume{.origin = bounds.low - cell, .mips = {}};
     volume.mips.push_back(empty_grid(glm::ivec3(glm::ceil(size / cell)) + 2, cell));
-    add_strands(strands, width, volume.origin, volume.mips[0]);
-    add_skin(strands, volume.origin, volume.mips[0]);
-    for (int i = 1; i < kMips; ++i) volume.mips.push_back(halved(volume.mips.back()));
     return volume;
 }
 
@@ -181,16 +220,36 @@ AxisDepths depths_at(const Volume& volume, const glm::vec3& p) {
     return depths;
 }
 
-}  // namespace
-
-std::vector<AxisDepths> ambient_depths(const StrandData& strands, float width) {
-    std::vector<AxisDepths> depths(strands.positions.size());
-    if (strands.segment_count() == 0) return depths;
-    const Volume volume = build_volume(strands, width);
+template <class Add>
+std::vector<AxisDepths> depths_around(const Roots& roots, const Add& add) {
+    std::vector<AxisDepths> depths(roots.points.size());
+    if (depths.empty()) return depths;
+    Volume volume = empty_volume(roots);
+    add(volume.origin, volume.mips[0]);
+    add_skin(roots, volume.origin, volume.mips[0]);
+    for (int i = 1; i < kMips; ++i) volume.mips.push_back(halved(volume.mips.back()));
     parallel_ranges(depths.size(), 256, [&](size_t first, size_t last) {
-        for (size_t i = first; i < last; ++i) depths[i] = depths_at(volume, strands.positions[i]);
+        for (size_t i = first; i < last; ++i) depths[i] = depths_at(volume, roots.points[i]);
     });
     return depths;
+}
+
+}  // namespace
+
+std::vector<AxisDepths> ambient_depths(std::span<const glm::vec3> points,
+                                       std::span<const uint32_t> strand_begin, float width) {
+    const Roots strands{points, strand_begin};
+    return depths_around(strands, [&](const glm::vec3& origin, Grid& grid) {
+        add_strands(strands, width, origin, grid);
+    });
+}
+
+std::vector<AxisDepths> ambient_depths(std::span<const glm::vec3> points,
+                                       std::span<const uint32_t> card_begin,
+                                       const AmbientPieces& pieces) {
+    return depths_around({points, card_begin}, [&](const glm::vec3& origin, Grid& grid) {
+        add_pieces(pieces, origin, grid);
+    });
 }
 
 std::vector<glm::uvec2> pack_ambient_depths(const std::vector<AxisDepths>& depths) {

@@ -138,7 +138,7 @@ float longest_side(const scene::Box& box) {
 }
 
 /// The groom's axes as its node turns them, the environment's light along each, and how much denser
-/// or thinner than in nominal_width() the groom is drawn.
+/// or thinner than in its own width the groom is drawn.
 void describe_ambient(const LibraryGroom& groom, const glm::dmat4& world, const HairWidth& width,
                       float alpha, const light::LightBlock& lights, HairInstance& instance) {
     light::glsl::Sh9 sh;
@@ -154,7 +154,12 @@ void describe_ambient(const LibraryGroom& groom, const glm::dmat4& world, const 
     }
     instance.ambient = groom.strands.ambient.address();
     const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(world))));
-    const float nominal = groom.width > 0.0f ? groom.width : 1e-4f;
+    if (groom.cards) {
+        // Their atlas has the strands as wide as they are drawn.
+        instance.ambient_scale = alpha;
+        return;
+    }
+    const float nominal = groom.width > 0.0f ? groom.width : kNominalWidth;
     const float drawn =
         width.root > 0.0f ? width.root / static_cast<float>(std::max(scale, 1e-12)) : nominal;
     instance.ambient_scale = alpha * drawn / nominal * (0.5f + 0.5f * width.tip_scale);

@@ -2,8 +2,6 @@
 
 #include <limits>
 
-#include "modules/hair/environment/ambient_depth.h"
-
 namespace vellus::hair {
 
 namespace {
@@ -35,8 +33,6 @@ Result<StrandBuffers> StrandBuffers::upload(gpu::Device& device, const StrandDat
         upload_column(device, strands.segment_point, "hair segments", buffers.segment_point),
         upload_column(device, strands.segment_strand, "hair segment strands",
                       buffers.segment_strand),
-        upload_column(device, pack_ambient_depths(ambient_depths(strands, nominal_width(strands))),
-                      "hair ambient depths", buffers.ambient),
         upload_column(device, strands.strand_seed, "hair seeds", buffers.strand_seed),
     };
     for (const auto& step : steps) {

@@ -14,7 +14,7 @@ struct StrandBuffers {
     gpu::Buffer segment_point;
     gpu::Buffer segment_strand;
     gpu::Buffer strand_seed;
-    gpu::Buffer ambient;  ///< pack_ambient_depths(); empty where unknown, as for cards
+    gpu::Buffer ambient;  ///< pack_ambient_depths(); empty until something draws with it
     uint32_t point_count = 0;
     uint32_t segment_count = 0;
     uint32_t strand_count = 0;

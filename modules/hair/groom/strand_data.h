@@ -68,10 +68,8 @@ struct StrandData {
     [[nodiscard]] size_t segment_count() const { return segment_point.size(); }
 };
 
-/// The diameter that stands for all of them where one must: `width`, else a millimetre's tenth.
-inline float nominal_width(const StrandData& strands) {
-    return strands.width > 0.0f ? strands.width : 1e-4f;
-}
+/// The diameter that stands for those of a groom without one.
+constexpr float kNominalWidth = 1e-4f;
 
 /// Columns of `groom` under `to_metres` (see upright_transform), on all cores. `width` in metres is
 /// for grooms without a thickness column (see default_width). Needs a repaired groom.

@@ -10,7 +10,7 @@ vec3 card_color(uint srgb) {
                greaterThan(c, vec3(0.04045)));
 }
 
-HairSample card_sample(CardSet set, CardVertices vertices, uint index, vec2 pixel) {
+HairSample card_sample(HairInstance hair, CardSet set, CardVertices vertices, uint index, vec2 pixel) {
     CardTriangle triangle = card_triangle(set, vertices, index);
     vec3 weights = card_weights(triangle, card_screen_weights(triangle, pixel));
     vec3 position = vec3(0.0), toward = vec3(0.0), along = vec3(0.0), across = vec3(0.0);
@@ -37,6 +37,15 @@ HairSample card_sample(CardSet set, CardVertices vertices, uint index, vec2 pixe
                                                             : parameter;
     result.along = 0.0;
     result.ambient = AmbientDepths(vec3(0.0), vec3(0.0));
+    if (uint64_t(hair.ambient) != 0ul) {
+        vec3 along_bytes = vec3(0.0), against_bytes = vec3(0.0);
+        for (int i = 0; i < 3; ++i) {
+            uvec2 words = hair.ambient.at[triangle.points[i]];
+            along_bytes += weights[i] * hair_ambient_bytes(words.x);
+            against_bytes += weights[i] * hair_ambient_bytes(words.y);
+        }
+        result.ambient = AmbientDepths(ambient_depth(along_bytes), ambient_depth(against_bytes));
+    }
     result.seed = card_seed(shape, triangle.salt);
     result.tint = (set.flags & kCardsColors) != 0u ? card_color(set.color.at[texel]) : vec3(1.0);
     return result;

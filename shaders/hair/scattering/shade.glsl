@@ -93,7 +93,7 @@ void main() {
     if (kCards) {
         CardSet cards = Cards(hair.cards).set;
         CardVertices vertices = CardVertices(uint64_t(projected));
-        at = card_sample(cards, vertices, segment, center);
+        at = card_sample(hair, cards, vertices, segment, center);
         previous = at.position;
         if (kDeformed) previous += card_previous_offset(hair, cards, vertices, segment, center);
     } else {

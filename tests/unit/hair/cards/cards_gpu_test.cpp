@@ -315,5 +315,35 @@ TEST_F(CardsTest, CardsReadAsTheirStrandsFromEightSides) {
     }
 }
 
+TEST_F(CardsTest, CardsKeepAsMuchOfTheSkyAsTheirStrands) {
+    const std::filesystem::path groom =
+        std::filesystem::path(VELLUS_SOURCE_DIR) / "assets/grooms/long.hair";
+    auto strands = test::load_upright_strands(groom);
+    ASSERT_TRUE(strands) << strands.error().message();
+    auto built = build_cards(*strands, {});
+    ASSERT_TRUE(built) << built.error().message();
+    auto views = CardViews::create(device(), glm::uvec2(224));
+    ASSERT_TRUE(views);
+    World& world = (*views)->world();
+    world.query<scene::Light>().each([](scene::Light& sun) { sun.intensity = 0.0f; });
+    *world.get<HairTechniques>((*views)->hair()) = best_techniques();
+    auto strand_groom = add_strands(world, device(), "strands", *strands, {});
+    auto card_groom = add_cards(world, device(), "cards", built->cards);
+    ASSERT_TRUE(strand_groom && card_groom);
+    const auto outermost = world.resource<HairLibrary>().grooms[*strand_groom].outermost;
+    for (int side = 0; side < 4; ++side) {
+        const double yaw = side * std::numbers::pi / 2.0;
+        (*views)->show(*strand_groom);
+        const auto expected = (*views)->draw(outermost, yaw, 1.0, 8);
+        (*views)->show(*card_groom);
+        const auto drawn = (*views)->draw(outermost, yaw, 1.0, 8);
+        ASSERT_TRUE(expected && drawn);
+        const test::CardComparison c = test::compare(*expected, *drawn);
+        // Without depths cards are more than three times as bright; what is left is how their
+        // places differ from those of their strands.
+        EXPECT_NEAR(c.luminance_error(), 0.0, 0.08) << "side " << side;
+    }
+}
+
 }  // namespace
 }  // namespace vellus::hair

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "modules/hair/environment/ambient_depth.h"
+#include "modules/hair/reference/visibility.h"
 #include "modules/hair/scattering/fibre.h"
 
 namespace vellus::hair {
@@ -100,7 +102,7 @@ StrandData block(int count) {
 TEST(AmbientDepth, CountsTheStrandsOfABlock) {
     const StrandData strands = block(10'000);
     const float width = 0.0004f;
-    const auto depths = ambient_depths(strands, width);
+    const auto depths = ambient_depths(strands.positions, strands.strand_begin, width);
     // Across, a metre of the block holds 10,000 · 0.2 m · 0.4 mm / 0.2³ m³ of area.
     const double density = 10'000.0 * 0.2 * static_cast<double>(width) / (0.2 * 0.2 * 0.2);
     double sum = 0.0;
@@ -125,7 +127,7 @@ TEST(AmbientDepth, CountsTheStrandsOfABlock) {
 
 TEST(AmbientDepth, NothingIsInTheWayOnTheOutside) {
     const StrandData strands = block(1'600);
-    const auto depths = ambient_depths(strands, 0.001f);
+    const auto depths = ambient_depths(strands.positions, strands.strand_begin, 0.001f);
     double open = 0.0;
     double inward = 0.0;
     int count = 0;
@@ -140,6 +142,75 @@ TEST(AmbientDepth, NothingIsInTheWayOnTheOutside) {
     EXPECT_LT(open / count, 1.0);
     // Straight down nothing gets through; some of the corners' rays leave by the near sides.
     EXPECT_GT(inward / count, 5.0 * open / count);
+}
+
+/// Means of (1 - 0.4)^n over directions, n the strands that a ray meets, weighted by squared
+/// cosines of the directions on the side of each axis.
+std::array<double, 6> brute_force(const std::vector<reference::RoundSegment>& segments,
+                                  const glm::dvec3& p) {
+    constexpr int kRays = 600;
+    std::array<double, 6> sum{};
+    std::array<double, 6> weight{};
+    for (int i = 0; i < kRays; ++i) {
+        const double z = 1.0 - (2.0 * i + 1.0) / kRays;
+        const double turn = 2.39996322972865332 * i;
+        const double r = std::sqrt(1.0 - z * z);
+        const glm::dvec3 d(r * std::cos(turn), r * std::sin(turn), z);
+        const double through = reference::transmittance_along(segments, p, d).at(1e9);
+        for (int k = 0; k < 3; ++k) {
+            const auto axis = static_cast<size_t>(d[k] > 0.0 ? k : k + 3);
+            sum[axis] += d[k] * d[k] * through;
+            weight[axis] += d[k] * d[k];
+        }
+    }
+    for (size_t k = 0; k < 6; ++k) sum[k] /= weight[k];
+    return sum;
+}
+
+TEST(AmbientDepth, IsWhatRaysThroughTheStrandsFind) {
+    // Where strands lie by chance, transmittance falls as the exponential says.
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> unit(0.0f, 0.2f);
+    Groom groom;
+    for (int strand = 0; strand < 1'500; ++strand) {
+        const glm::vec3 root(0.0f, unit(random), unit(random));
+        for (int i = 0; i <= 4; ++i) groom.points.push_back(root + glm::vec3(0.05f * i, 0, 0));
+        groom.strand_begin.push_back(static_cast<uint32_t>(groom.points.size()));
+    }
+    constexpr float kWidth = 0.001f;
+    const StrandData strands = prepare_strands(groom, glm::dmat4(1.0), kWidth);
+    std::vector<reference::RoundSegment> segments;
+    for (size_t i = 0; i < strands.segment_count(); ++i) {
+        const uint32_t first = strands.segment_point[i];
+        segments.push_back({.a = strands.positions[first],
+                            .b = strands.positions[first + 1],
+                            .radius_a = kWidth / 2,
+                            .radius_b = kWidth / 2,
+                            .opacity = 0.4,
+                            .strand = strands.segment_strand[i]});
+    }
+    const auto depths = ambient_depths(strands.positions, strands.strand_begin, kWidth);
+    // Along the strands, and across them.
+    std::array<double, 2> difference{};
+    std::array<double, 2> bias{};
+    std::array<double, 2> count{};
+    for (size_t i = 0; i < depths.size(); i += 517) {
+        const auto rays = brute_force(segments, glm::dvec3(strands.positions[i]));
+        for (size_t k = 0; k < 6; ++k) {
+            const double through = std::exp(-0.4 * static_cast<double>(depths[i][k]));
+            const size_t across = k % 3 == 0 ? 0 : 1;
+            difference[across] += std::abs(through - rays[k]);
+            bias[across] += through - rays[k];
+            count[across] += 1.0;
+        }
+    }
+    ASSERT_GE(count[0], 28.0);
+    // Cells of 2 mm that get coarser with distance.
+    EXPECT_LT(difference[1] / count[1], 0.06);
+    EXPECT_NEAR(bias[1] / count[1], 0.0, 0.03);
+    // Fourteen directions stand for the sphere: straight along the strands, one meets none of them,
+    // where its neighbours do.
+    EXPECT_LT(difference[0] / count[0], 0.17);
 }
 
 }  // namespace

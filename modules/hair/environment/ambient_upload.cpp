@@ -1,0 +1,45 @@
+#include "modules/hair/environment/ambient_upload.h"
+
+#include <algorithm>
+#include <span>
+
+#include "modules/hair/environment/ambient_depth.h"
+
+namespace vellus::hair {
+
+namespace {
+
+Result<void> upload(gpu::Device& device, LibraryGroom& groom) {
+    const float width = groom.width > 0.0f ? groom.width : kNominalWidth;
+    const auto depths = groom.cards
+                            ? ambient_depths(groom.positions, groom.strand_begin, groom.card_pieces)
+                            : ambient_depths(groom.positions, groom.strand_begin, width);
+    const auto packed = pack_ambient_depths(depths);
+    auto buffer = gpu::Buffer::upload_span(device, std::span(packed), "hair ambient depths");
+    if (!buffer) return buffer.error();
+    groom.strands.ambient = std::move(*buffer);
+    groom.card_pieces = {};
+    return {};
+}
+
+}  // namespace
+
+void upload_ambient_depths(Res<HairLibrary> library, Res<HairFrame> hair,
+                           Res<scene::RenderFrame> frame) {
+    for (size_t i = 0; i < hair->draws.size(); ++i) {
+        const HairDraw& draw = hair->draws[i];
+        HairInstance& instance = hair->instances[i];
+        if (draw.environment != EnvironmentTechnique::kShDepth || instance.ambient != 0) continue;
+        const auto groom = std::ranges::find_if(
+            library->grooms,
+            [&](const LibraryGroom& candidate) { return &candidate.strands == draw.strands; });
+        if (groom->strands.ambient.bytes() == 0) {
+            if (auto done = upload(*frame->device, *groom); !done) {
+                return frame->fail(done.error());
+            }
+        }
+        instance.ambient = groom->strands.ambient.address();
+    }
+}
+
+}  // namespace vellus::hair
