@@ -100,14 +100,14 @@ Result<MeshPipelines> make_pipelines(gpu::Device& device) {
 
 }  // namespace
 
-gpu::RasterInfo draw_info(uint32_t lights, bool hair_shadows, bool cull_back) {
+gpu::RasterInfo draw_info(uint32_t lights, HairOnMeshes hair, bool cull_back) {
     gpu::RasterInfo info;
     info.vertex_shader = "character/mesh.vert.glsl";
     info.fragment_shader = "character/mesh.frag.glsl";
     info.bindings = {gpu::Binding::kSampledRepeat, gpu::Binding::kSampledNearest,
                      gpu::Binding::kUniform, gpu::Binding::kUniform};
     info.push_bytes = sizeof(MeshPush);
-    info.constants = {lights, hair_shadows ? 1U : 0U};
+    info.constants = {lights, static_cast<uint32_t>(hair)};
     info.color_formats = {gpu::Format::kRgba16Float, gpu::Format::kRg16Float};
     info.depth_format = gpu::Format::kD32Float;
     info.depth = gpu::DepthMode::kTestWrite;

@@ -50,12 +50,15 @@ struct DrawPipelines {
 struct MeshPipelines {
     const gpu::Pipeline* skin = nullptr;
     const gpu::Pipeline* shadow = nullptr;
-    /// By number of lights, then whether hair casts shadows; made when a frame first calls for one.
-    std::array<std::array<DrawPipelines, 2>, light::kMaxLights + 1> draw;
+    /// By number of lights, then HairOnMeshes; made when a frame first calls for one.
+    std::array<std::array<DrawPipelines, 3>, light::kMaxLights + 1> draw;
 };
 
+/// What of hair's shadows a frame has for meshes to look up.
+enum class HairOnMeshes : uint8_t { kNone, kClosest, kLayers };
+
 /// How to make one of MeshPipelines::draw.
-gpu::RasterInfo draw_info(uint32_t lights, bool hair_shadows, bool cull_back);
+gpu::RasterInfo draw_info(uint32_t lights, HairOnMeshes hair, bool cull_back);
 
 /// Meshes on the device, by asset index of the SceneLibrary. Resource.
 struct MeshLibrary {

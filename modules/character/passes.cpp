@@ -132,10 +132,12 @@ void describe_meshes(Res<const MeshDraws> draws, Res<const light::LightSet> ligh
     const auto seen = [](const MeshDraw& draw) { return draw.in_view; };
     if (!passes->skinned || std::ranges::none_of(draws->draws, seen)) return;
     const uint32_t light_count = lights->block.count;
-    const bool hair_shadows = static_cast<bool>(frame->hair_shadows);
-    DrawPipelines& pipelines = library->pipelines.draw[light_count][hair_shadows ? 1 : 0];
+    const HairOnMeshes hair = frame->hair_layers    ? HairOnMeshes::kLayers
+                              : frame->hair_shadows ? HairOnMeshes::kClosest
+                                                    : HairOnMeshes::kNone;
+    DrawPipelines& pipelines = library->pipelines.draw[light_count][static_cast<size_t>(hair)];
     const auto info = [&](bool cull_back) {
-        return [=] { return draw_info(light_count, hair_shadows, cull_back); };
+        return [=] { return draw_info(light_count, hair, cull_back); };
     };
     if (!frame->raster(pipelines.one_sided, info(true)) ||
         !frame->raster(pipelines.two_sided, info(false))) {
@@ -149,6 +151,7 @@ void describe_meshes(Res<const MeshDraws> draws, Res<const light::LightSet> ligh
     pass.read(passes->skinned, graph::Access::kGraphicsStorageRead);
     if (shadows) pass.read(shadows, graph::Access::kSampledFragment);
     if (frame->hair_shadows) pass.read(frame->hair_shadows, graph::Access::kGraphicsStorageRead);
+    if (frame->hair_layers) pass.read(frame->hair_layers, graph::Access::kGraphicsStorageRead);
     pass.execute([skinned = passes->skinned, shadows, list = std::span(draws->draws),
                   view = frame->view_block, lights = frame->lights_block, pipelines,
                   white = library->white.view()](graph::PassContext& context) {

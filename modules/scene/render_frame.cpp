@@ -29,7 +29,7 @@ void begin_frame(Res<const ViewState> state, Res<RenderFrame> frame) {
     frame->lights_block = {};
     frame->lights = 0;
     frame->opaque_shadows = {};
-    frame->hair_shadows = {};
+    frame->hair_shadows = frame->hair_layers = {};
     frame->display = {};
 
     const auto image = [&](const char* name, gpu::Format format) {

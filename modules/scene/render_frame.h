@@ -35,6 +35,7 @@ struct RenderFrame {
     graph::ImageHandle depth;           ///< of opaque surfaces, reversed, D32F
     graph::ImageHandle opaque_shadows;  ///< atlas of light::PunctualLight's tiles, D32F
     graph::BufferHandle hair_shadows;   ///< maps of all lights, one after the other
+    graph::BufferHandle hair_layers;    ///< deep opacity maps of all lights; invalid where none are
     graph::ImageHandle display;         ///< sRGB-encoded RGBA8: what is shown and saved
 
     /// The first thing that went wrong while describing; the host reports it and stops.

@@ -9,7 +9,7 @@
 // Metallic-roughness surface under punctual lights with their shadows and the environment's SH. A CPU
 // device runs both sides of a branch, so what this frame does not call for is compiled out.
 layout(constant_id = 0) const uint kLightCount = 4;
-layout(constant_id = 1) const bool kHairShadows = true;
+layout(constant_id = 1) const int kHairShadows = 1;  // HairOnMeshes of modules/character/mesh_library.h
 
 layout(set = 0, binding = 0) uniform sampler2D base_color_image;
 layout(set = 0, binding = 1) uniform sampler2D opaque_shadows;
@@ -36,7 +36,9 @@ float shadow(PunctualLight light, vec3 n, vec3 to_light) {
     vec3 p =
         position + shadow_normal_offset(n, to_light, shadow_texel_metres(light, light.opaque_texel, distance));
     float visible = opaque_visibility(opaque_shadows, light, p);
-    if (!kHairShadows) return visible;
+    if (kHairShadows == 0) return visible;
+    // As the hair itself does: by how much of it is in front, where layers hold that.
+    if (kHairShadows == 2) return visible > 0.0 ? visible * deep_transmittance(light, p, 0.0) : 0.0;
     return visible > 0.0 ? visible * hair_transmittance(light, p, hair_falloff, 0.0) : 0.0;
 }
 

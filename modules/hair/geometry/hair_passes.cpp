@@ -248,6 +248,7 @@ void describe_hair_shadows(Res<HairFrame> hair, Res<const light::LightSet> light
                                        pipelines->deep, *frame, hair->layers);
     }
     frame->hair_shadows = map;
+    frame->hair_layers = hair->layers;
 }
 
 namespace {

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <random>
 
+#include "modules/character/mesh_library.h"
+#include "modules/character/register.h"
+#include "modules/scene/instantiate.h"
 #include "tests/support/hair_scene.h"
 
 // What technique deep_opacity lets through a slab of strands, against Beer and Lambert's law.
@@ -104,6 +107,67 @@ TEST_F(DeepOpacityTest, ASlabLetsThroughWhatBeerAndLambertSay) {
             }
         }
     }
+}
+
+/// A white square below the slab that faces up and to the eye.
+std::shared_ptr<asset::SceneAsset> skin() {
+    asset::Primitive square;
+    for (const auto& [x, along] : {std::pair{-1, 0}, {1, 0}, {1, 1}, {-1, 1}}) {
+        const float step = 0.02f * static_cast<float>(along);
+        square.positions.emplace_back(0.05f * static_cast<float>(x), -kHalf - 0.05f + step,
+                                      kFront - 0.25f * kThickness - step);
+        square.normals.emplace_back(0.0f, std::sqrt(0.5f), std::sqrt(0.5f));
+    }
+    square.indices = {0, 1, 2, 0, 2, 3};
+    square.material = 0;
+    auto scene = std::make_shared<asset::SceneAsset>();
+    scene->meshes = {{"skin", {square}, {}}};
+    scene->materials = {{.metallic = 0.0f, .roughness = 1.0f}};
+    scene->nodes = {{.name = "skin", .mesh = 0}};
+    scene->roots = {0};
+    return scene;
+}
+
+/// Mean brightness of the square below a slab of hair.
+double draw_skin(gpu::Device& device, const StrandData& strands, ShadowTechnique shadow) {
+    HairScene scene(device, kSize, kSize);
+    character::register_character(scene.world, scene.schedule);
+    character::register_character_passes(scene.world, scene.schedule);
+    scene.world.resource<light::ShadowSettings>() = {.size = 512, .fit_to_picture = false};
+    scene.add_sun({0, 1, 0});
+    HairExtension look;
+    look.width.tip_scale = 1.0f;
+    scene.add_hair(strands, look, {.shadow = shadow, .environment = EnvironmentTechnique::kNone});
+    EXPECT_TRUE(scene::instantiate(scene.world, skin()));
+    EXPECT_TRUE(scene.world.resource<character::MeshLibrary>().update(
+        device, scene.world.resource<scene::SceneLibrary>()));
+    scene.build();
+    const auto picture = scene.draw();
+    double sum = 0.0;
+    double count = 0.0;
+    // Rows below the slab show nothing else.
+    for (uint32_t y = kSize / 2 + kSize / 4 + 4; y < kSize; ++y) {
+        for (uint32_t x = 0; x < kSize; ++x) {
+            const double value = picture[size_t{y} * kSize + x].g;
+            sum += value;
+            count += value > 0.0 ? 1.0 : 0.0;
+        }
+    }
+    EXPECT_GT(count, 50.0);
+    return sum;
+}
+
+TEST_F(DeepOpacityTest, SkinBelowASlabGetsWhatPassesAllOfIt) {
+    double lit = 0.0;
+    double shaded = 0.0;
+    for (uint32_t seed = 0; seed < kSlabs; ++seed) {
+        const StrandData strands = slab(0.5f, seed);
+        lit += draw_skin(device(), strands, ShadowTechnique::kNone);
+        shaded += draw_skin(device(), strands, ShadowTechnique::kDeepOpacity);
+    }
+    // An optical depth of one. A tenth of a metre behind the closest hair an exponential falloff of
+    // 80 per metre leaves nothing.
+    EXPECT_NEAR(shaded / lit, std::exp(-1.0), 0.04);
 }
 
 }  // namespace
