@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/platform/result.h"
+
 namespace vellus::bench {
 
 /// One subcommand of vellus_bench. `set_up` declares its options and returns what runs it, whose
@@ -22,5 +24,8 @@ std::vector<Benchmark>& benchmarks();
 struct Registration {
     explicit Registration(Benchmark benchmark) { benchmarks().push_back(std::move(benchmark)); }
 };
+
+/// 0, or 1 and the error on stderr.
+int exit_status(const Result<void>& done);
 
 }  // namespace vellus::bench

@@ -69,7 +69,8 @@ const Registration kCompare(
     {"compare", "what got slower or larger from one report to another; status 1 if anything did",
      [](CLI::App& app) -> std::function<int()> {
          auto options = std::make_shared<Options>();
-         app.add_option("before", options->before, "report of vellus_bench demo --json")
+         app.add_option("before", options->before,
+                        "report of vellus_bench all, engine, demo or scaling --json")
              ->required();
          app.add_option("after", options->after, "another one")->required();
          app.add_option("--least", options->tolerances.least,

@@ -1,18 +1,12 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 
-#include "engine/platform/clock.h"
 #include "engine/platform/files.h"
-#include "engine/platform/hash.h"
-#include "engine/platform/user_folders.h"
-#include "game_demo/src/content.h"
-#include "game_demo/src/progress.h"
-#include "game_demo/src/renderer.h"
 #include "tests/perf/bench.h"
+#include "tests/perf/engine_rows.h"
 #include "tests/perf/frame_samples.h"
-#include "tests/perf/report/report.h"
+#include "tests/perf/scene_rows.h"
 
 // Named scenes for a fixed number of frames: what a frame and each of its passes take, how many
 // frames a second that makes, and what the last picture hashes to.
@@ -20,132 +14,39 @@ namespace vellus::bench {
 
 namespace {
 
-namespace fs = std::filesystem;
-using demo::Output;
-using demo::Renderer;
-
-struct Options {
-    std::vector<std::string> scenes;  ///< names below assets/scenes, or files; none: all
-    std::vector<uint32_t> size{640, 360};
-    uint32_t frames = 64;
-    uint32_t warm_up = 8;
-    std::string device;
+struct Options : SceneOptions {
     std::string json;
-    std::string csv;
-    double inject_ms = 0.0;
 };
 
-constexpr uint32_t kFramesPerCalibration = 8;
-
-struct Samples : FrameSamples {
-    uint64_t hash = 0;
-};
-
-std::vector<fs::path> scene_files(const Options& options) {
-    std::vector<fs::path> files;
-    for (const std::string& scene : options.scenes) {
-        const fs::path known = demo::scene_folder() / (scene + ".gltf");
-        files.push_back(fs::exists(known) ? known : fs::path(scene));
-    }
-    if (!files.empty()) return files;
-    for (const auto& entry : fs::directory_iterator(demo::scene_folder())) {
-        if (entry.path().extension() == ".gltf") files.push_back(entry.path());
-    }
-    std::ranges::sort(files);
-    return files;
-}
-
-void keep_busy(double milliseconds) {
-    const double end = wall_seconds() + 1e-3 * milliseconds;
-    while (wall_seconds() < end) {
-    }
-}
-
-Result<Samples> measure(gpu::Device& device, const fs::path& scene, const Options& options,
-                        std::vector<double>& calibrations) {
-    auto renderer = Renderer::create(device, {});
-    if (!renderer) return renderer.error();
-    demo::Options content;
-    content.scene = scene;
-    content.size = {options.size[0], options.size[1]};
-    if (auto loaded = demo::load_content(**renderer, content); !loaded) return loaded.error();
-    Samples samples;
-    demo::Progress progress(options.warm_up + options.frames);
-    for (uint32_t frame = 0; frame < options.warm_up + options.frames; ++frame) {
-        if (frame % kFramesPerCalibration == 0) calibrations.push_back(run_calibration());
-        const double wall = wall_seconds();
-        const double cpu = process_cpu_seconds();
-        keep_busy(options.inject_ms);
-        const bool last = frame + 1 == options.warm_up + options.frames;
-        auto drawn = (*renderer)->draw(last ? Output::kPixels : Output::kNowhere);
-        if (!drawn) return drawn.error();
-        if (auto done = (*renderer)->wait(); !done) return done.error();
-        progress.update(frame + 1);
-        if (frame < options.warm_up) continue;
-        const double wall_ms = 1e3 * (wall_seconds() - wall);
-        samples.add(wall_ms, 1e3 * (process_cpu_seconds() - cpu), (*renderer)->report());
-    }
-    const asset::Image picture = (*renderer)->pixels();
-    samples.hash = fnv1a(std::as_bytes(std::span(picture.rgba)));
-    return samples;
-}
-
-Result<void> write_csv(const fs::path& folder, const std::string& scene, const Samples& samples) {
-    std::string text = "frame,wall_ms,cpu_ms";
-    for (const auto& [name, times] : samples.passes) text.append(",").append(name);
-    text += "\n";
-    for (size_t frame = 0; frame < samples.wall_ms.size(); ++frame) {
-        text +=
-            fmt::format("{},{:.3f},{:.3f}", frame, samples.wall_ms[frame], samples.cpu_ms[frame]);
-        for (const auto& [name, times] : samples.passes)
-            text += fmt::format(",{:.3f}", times[frame]);
-        text += "\n";
-    }
-    return write_file(folder / (scene + ".csv"), text);
-}
-
-void print_scene(const std::string& scene, const Samples& samples) {
-    const Row wall = make_row("", "ms", samples.wall_ms);
-    const Row cpu = make_row("", "ms", samples.cpu_ms);
-    fmt::print(
-        "{:<10} {:>6.1f} frames a second: {:.1f} ms wall (p95 {:.1f}), {:.1f} ms CPU, hash "
-        "{:016x}\n",
-        scene, wall.median > 0.0 ? 1e3 / wall.median : 0.0, wall.median, wall.p95, cpu.median,
-        samples.hash);
-    print_passes(samples, 0.05);
-}
-
-Result<void> run_scenes(const Options& options) {
-    auto device =
-        gpu::Device::create({.name = options.device, .pipeline_cache_folder = cache_folder()});
-    if (!device) return device.error();
-    Report report{.device = (*device)->traits().name};
+/// `engine`: its rows come first.
+Result<void> run(const Options& options, const EngineOptions* engine) {
+    Report report;
     std::vector<double> calibrations;
-    fmt::print("{}x{}, {} frames after {}, on {}\n", options.size[0], options.size[1],
-               options.frames, options.warm_up, report.device);
-    for (const fs::path& file : scene_files(options)) {
-        const std::string scene = file.stem().string();
-        auto samples = measure(**device, file, options, calibrations);
-        if (!samples) return samples.error();
-        add_rows(report, scene, *samples);
-        report.hashes[scene] = fmt::format("{:016x}", samples->hash);
-        print_scene(scene, *samples);
-        if (options.csv.empty()) continue;
-        if (auto saved = write_csv(options.csv, scene, *samples); !saved) return saved;
+    if (engine) {
+        if (auto done = measure_engine(*engine, report, calibrations); !done) return done;
     }
+    if (auto done = measure_scenes(options, report, calibrations); !done) return done;
     report.calibration = make_row("calibration", "ms", calibrations);
-    report.command = fmt::format("vellus_bench demo --size {} {} --frames {} --warm-up {}",
-                                 options.size[0], options.size[1], options.frames, options.warm_up);
-    fmt::print("calibration {:.2f} ms (p95 {:.2f})\n", report.calibration.median,
-               report.calibration.p95);
+    report.command = fmt::format("vellus_bench {} --size {} {} --frames {} --warm-up {}",
+                                 engine ? "all" : "demo", options.size[0], options.size[1],
+                                 options.frames, options.warm_up);
+    print_calibration(report);
     if (options.json.empty()) return {};
     return write_file(options.json, std::string_view(to_json(report)));
 }
 
-int run_demo(const Options& options) {
-    const auto done = run_scenes(options);
-    if (!done) fmt::print(stderr, "error: {}\n", done.error().message());
-    return done ? 0 : 1;
+void add_common_options(CLI::App& app, Options& options) {
+    app.add_option("--size", options.size, "width and height")
+        ->expected(2)
+        ->check(CLI::Range(1, 16384));
+    app.add_option("--frames", options.frames, "counted frames")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    app.add_option("--warm-up", options.warm_up, "frames before them")
+        ->check(CLI::Range(0, 100000))
+        ->capture_default_str();
+    app.add_option("--device", options.device, "part of its name");
+    app.add_option("--json", options.json, "file for the report; see compare");
 }
 
 const Registration kDemo(
@@ -153,23 +54,23 @@ const Registration kDemo(
      [](CLI::App& app) -> std::function<int()> {
          auto options = std::make_shared<Options>();
          app.add_option("scenes", options->scenes, "names (walk) or files; all that came along");
-         app.add_option("--size", options->size, "width and height")
-             ->expected(2)
-             ->check(CLI::Range(1, 16384));
-         app.add_option("--frames", options->frames, "counted frames")
-             ->check(CLI::Range(1, 100000))
-             ->capture_default_str();
-         app.add_option("--warm-up", options->warm_up, "frames before them")
-             ->check(CLI::Range(0, 100000))
-             ->capture_default_str();
-         app.add_option("--device", options->device, "part of its name");
-         app.add_option("--json", options->json, "file for the report; see compare");
+         add_common_options(app, *options);
          app.add_option("--csv", options->csv, "folder for a line per frame, SCENE.csv");
          app.add_option("--inject", options->inject_ms,
                         "milliseconds to waste in every frame, to see compare catch it")
              ->check(CLI::Range(0.0, 1e4));
-         return [options] { return run_demo(*options); };
+         return [options] { return exit_status(run(*options, nullptr)); };
      }});
+
+const Registration kAll({"all", "the rows of engine and of demo's scenes in one report",
+                         [](CLI::App& app) -> std::function<int()> {
+                             auto options = std::make_shared<Options>();
+                             add_common_options(app, *options);
+                             return [options] {
+                                 const EngineOptions engine;
+                                 return exit_status(run(*options, &engine));
+                             };
+                         }});
 
 }  // namespace
 

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 
-#include "engine/platform/files.h"
 #include "tests/perf/bench.h"
 #include "tests/perf/ecs_cases.h"
 
@@ -16,7 +14,6 @@ struct Options {
     bool quick = false;
     int rounds = 0;
     std::string only;
-    std::string json;
 };
 
 struct Measured {
@@ -50,7 +47,6 @@ int run(const Options& options) {
 
     std::vector<EcsCaseMaker> makers = iteration_cases(options.quick);
     std::ranges::move(structure_cases(options.quick), std::back_inserter(makers));
-    nlohmann::json report = nlohmann::json::array();
     bool all_verified = true;
     fmt::print("{:<44} {:>10} {:>10} {:>7} {:>8}\n", "ns per entity, best of turns", "Vellus",
                "by hand", "ratio", "target");
@@ -66,18 +62,6 @@ int run(const Options& options) {
                    measured.hand_ns, ratio, fmt::format("<= {:.1f}", one.target), verdict);
         std::fflush(stdout);
         all_verified &= measured.verified;
-        report.push_back({{"name", name},
-                          {"vellus_ns", measured.vellus_ns},
-                          {"hand_ns", measured.hand_ns},
-                          {"ratio", ratio},
-                          {"target", one.target},
-                          {"verified", measured.verified}});
-    }
-    if (!options.json.empty()) {
-        if (const auto written = write_file(options.json, report.dump(2) + "\n"); !written) {
-            fmt::print(stderr, "{}\n", written.error().message());
-            return 1;
-        }
     }
     return all_verified ? 0 : 1;
 }
@@ -88,7 +72,6 @@ const Registration kEcs(
          app.add_flag("--quick", options->quick, "Fewer entities and turns");
          app.add_option("--rounds", options->rounds, "Turns per side")->check(CLI::Range(1, 1000));
          app.add_option("--only", options->only, "Cases whose name has this");
-         app.add_option("--json", options->json, "Also write a JSON file");
          return [options] { return run(*options); };
      }});
 

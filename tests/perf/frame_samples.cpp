@@ -26,7 +26,7 @@ void add_rows(Report& report, const std::string& name, const FrameSamples& sampl
     report.rows.push_back(make_row(name + "/wall", "ms", samples.wall_ms));
     report.rows.push_back(make_row(name + "/cpu", "ms", samples.cpu_ms));
     for (const auto& [pass, times] : samples.passes) {
-        report.rows.push_back(make_row(name + "/" + pass, "ms", times));
+        report.rows.push_back(make_row(fmt::format("{}/{}", name, pass), "ms", times));
     }
     report.rows.push_back(make_row(name + "/memory", "bytes", {samples.bytes}));
 }
@@ -40,6 +40,11 @@ void print_passes(const FrameSamples& samples, double least_ms) {
         if (row.median < least_ms) break;
         fmt::print("    {:<26} {:>8.2f} ms (p95 {:.2f})\n", row.name, row.median, row.p95);
     }
+}
+
+void print_calibration(const Report& report) {
+    fmt::print("calibration {:.2f} ms (p95 {:.2f}), {}\n", report.calibration.median,
+               report.calibration.p95, report.device);
 }
 
 }  // namespace vellus::bench

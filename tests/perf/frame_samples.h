@@ -27,4 +27,7 @@ void add_rows(Report& report, const std::string& name, const FrameSamples& sampl
 /// The passes that take at least `least_ms`, the longest first, a line each.
 void print_passes(const FrameSamples& samples, double least_ms);
 
+/// One line: what the calibration took, and on which device.
+void print_calibration(const Report& report);
+
 }  // namespace vellus::bench

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -9,6 +11,11 @@ namespace vellus::bench {
 std::vector<Benchmark>& benchmarks() {
     static std::vector<Benchmark> all;
     return all;
+}
+
+int exit_status(const Result<void>& done) {
+    if (!done) fmt::print(stderr, "error: {}\n", done.error().message());
+    return done ? 0 : 1;
 }
 
 }  // namespace vellus::bench

@@ -24,6 +24,7 @@ constexpr uint32_t kFramesPerCalibration = 8;
 struct Options {
     std::string device;
     std::string json;
+    std::string only;
     bool quick = false;
 };
 
@@ -107,6 +108,7 @@ Result<void> run_cases(const Options& options) {
     hair::StrandData strands;
     uint32_t grown = 0;
     for (const Case& c : cases(options.quick)) {
+        if (name_of(c).find(options.only) == std::string::npos) continue;
         if (c.strands != grown) {
             auto made = grow(c.strands);
             if (!made) return made.error();
@@ -120,16 +122,9 @@ Result<void> run_cases(const Options& options) {
         print_case(c, *samples);
     }
     report.calibration = make_row("calibration", "ms", calibrations);
-    fmt::print("calibration {:.2f} ms (p95 {:.2f}), {}\n", report.calibration.median,
-               report.calibration.p95, report.device);
+    print_calibration(report);
     if (options.json.empty()) return {};
     return write_file(options.json, std::string_view(to_json(report)));
-}
-
-int run_scaling(const Options& options) {
-    const auto done = run_cases(options);
-    if (!done) fmt::print(stderr, "error: {}\n", done.error().message());
-    return done ? 0 : 1;
 }
 
 const Registration kScaling(
@@ -137,9 +132,10 @@ const Registration kScaling(
      [](CLI::App& app) -> std::function<int()> {
          auto options = std::make_shared<Options>();
          app.add_flag("--quick", options->quick, "few strands, small pictures, four frames");
+         app.add_option("--only", options->only, "rows whose name has this");
          app.add_option("--device", options->device, "part of its name");
          app.add_option("--json", options->json, "file for the report; see compare");
-         return [options] { return run_scaling(*options); };
+         return [options] { return exit_status(run_cases(*options)); };
      }});
 
 }  // namespace

@@ -74,7 +74,7 @@ Result<Report> load_report(const std::filesystem::path& path) {
     const auto bytes = read_file(path);
     if (!bytes) return bytes.error();
     const Error wrong{"is no report of vellus_bench", path.string(),
-                      "make one with vellus_bench demo --json FILE"};
+                      "make one with vellus_bench all --json FILE"};
     const auto* text = reinterpret_cast<const char*>(bytes->data());
     const auto json = nlohmann::json::parse(text, text + bytes->size(), nullptr, false);
     if (json.is_discarded()) return wrong;
