@@ -54,6 +54,6 @@ void main() {
     vec2 moved = texelFetch(velocity, pixel, 0).xy;
     vec2 uv = (vec2(pixel) + 0.5 - moved) * inverse_size;
     float share = history_valid != 0u ? taa_blend(uv, blend) : 1.0;
-    vec3 before = share < 1.0 ? taa_clip(box, rgb_to_ycocg(read_history(uv, moved))) : current;
+    vec3 before = share < 1.0 ? taa_clamp(box, rgb_to_ycocg(read_history(uv, moved))) : current;
     imageStore(result, pixel, vec4(taa_resolve(current, before, share), 1.0));
 }

@@ -1,5 +1,5 @@
 // Temporal antialiasing: resolve of one pixel, without texture access.
-// Sources: B. Karis, "High Quality Temporal Supersampling", SIGGRAPH 2014 (YCoCg box, clip, luminance
+// Sources: B. Karis, "High Quality Temporal Supersampling", SIGGRAPH 2014 (YCoCg box, luminance
 // weight); J. Jimenez, "Filmic SMAA", SIGGRAPH 2016 (Catmull-Rom in five taps).
 // Colours are pre-exposed linear RGB. Texels of the frame go through taa_load, which marks garbage so that it
 // enters neither box nor history; texels of the history through taa_sanitize.
@@ -53,19 +53,16 @@ VELLUS_FN TaaBox taa_box_start(vec3 ycocg) {
     return box;
 }
 
-/// Moves `history` towards the centre of the box until it lies inside (line-box clip); an empty box leaves it.
-VELLUS_FN vec3 taa_clip(TaaBox box, vec3 history) {
-    if (box.low.x > box.high.x) return history;
-    vec3 centre = 0.5f * (box.low + box.high);
-    vec3 extent = 0.5f * (box.high - box.low) + vec3(1.0e-5f);
-    vec3 offset = history - centre;
-    vec3 ratio = abs(offset) / extent;
-    return centre + offset / max(max(max(ratio.x, ratio.y), ratio.z), 1.0f);
+/// `history` inside the box, channel by channel; an empty box leaves it. Not along the line to the box's
+/// centre: where a grey neighbourhood makes the box a needle that moves luma by the box's length over its width
+/// times what the chroma is off, and rounding to half floats grows to visible steps that no frame forgets.
+VELLUS_FN vec3 taa_clamp(TaaBox box, vec3 history) {
+    return box.low.x > box.high.x ? history : clamp(history, box.low, box.high);
 }
 
 VELLUS_FN float taa_weight(float luma) { return 1.0f / (1.0f + max(luma, 0.0f)); }
 
-/// New history, linear RGB. `current` and `history` are YCoCg, `history` already clipped; `blend` in
+/// New history, linear RGB. `current` and `history` are YCoCg, `history` already clamped; `blend` in
 /// [0, 1] is the share of the current frame: 1 where there is no history. A marked `current` leaves the
 /// history as it is, or black where there is none.
 VELLUS_FN vec3 taa_resolve(vec3 current, vec3 history, float blend) {

@@ -48,7 +48,7 @@ TEST(Shadow, AnyDepthsAndAOneTexelMapAreFinite) {
 constexpr int kSide = 8;
 using Picture = std::array<std::array<vec3, kSide>, kSide>;
 
-/// One frame of TAA over a small still picture, as the pass does it: 3×3 box, clip, resolve.
+/// One frame of TAA over a small still picture, as the pass does it: 3×3 box, clamp, resolve.
 void resolve(const Picture& current, Picture& history, float blend) {
     Picture next = history;
     for (int y = 0; y < kSide; ++y) {
@@ -60,7 +60,7 @@ void resolve(const Picture& current, Picture& history, float blend) {
                 const int column = std::clamp(x + k % 3 - 1, 0, kSide - 1);
                 taa_box_add(box, taa_load(current[row][column]));
             }
-            const vec3 old = taa_clip(box, rgb_to_ycocg(taa_sanitize(history[y][x])));
+            const vec3 old = taa_clamp(box, rgb_to_ycocg(taa_sanitize(history[y][x])));
             next[y][x] = taa_resolve(centre, old, blend);
         }
     }
@@ -117,7 +117,7 @@ TEST(Taa, StillPictureStaysStill) {
         const vec3 color(random.log_range(1e-4, 1e3), random.unit(), random.unit());
         const vec3 c = rgb_to_ycocg(color);
         TaaBox box = taa_box_start(c);
-        const vec3 value = taa_resolve(c, taa_clip(box, c), 0.1f);
+        const vec3 value = taa_resolve(c, taa_clamp(box, c), 0.1f);
         worst.add(glm::length(value - color) / glm::length(color),
                   [&] { return fmt::format("{}", color.x); });
     }

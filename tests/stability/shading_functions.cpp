@@ -56,7 +56,7 @@ vec3 taa(const ShadingInput& p) {
     const vec3 current = taa_load(vec3(p.history));
     TaaBox box = taa_box_start(current);
     taa_box_add(box, taa_load(vec3(p.color)));
-    const vec3 history = taa_clip(box, rgb_to_ycocg(taa_sanitize(vec3(p.to_view))));
+    const vec3 history = taa_clamp(box, rgb_to_ycocg(taa_sanitize(vec3(p.to_view))));
     return taa_resolve(current, history, p.blend);
 }
 

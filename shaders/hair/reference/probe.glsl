@@ -47,7 +47,7 @@ VELLUS_FN vec3 probe_taa(ProbeInput p) {
     vec3 current = taa_load(p.history);
     TaaBox box = taa_box_start(current);
     taa_box_add(box, taa_load(p.color));
-    vec3 history = taa_clip(box, rgb_to_ycocg(taa_sanitize(p.to_view)));
+    vec3 history = taa_clamp(box, rgb_to_ycocg(taa_sanitize(p.to_view)));
     return taa_resolve(current, history, p.blend);
 }
 
