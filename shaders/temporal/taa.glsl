@@ -24,9 +24,10 @@ VELLUS_FN vec3 ycocg_to_rgb(vec3 c) {
     return vec3(t + c.y, c.x + c.z, t - c.y);
 }
 
-/// A texel of the current frame in YCoCg; NaN, infinity and what no half float holds are marked by Y = -1.
+/// A texel of the current frame in YCoCg; NaN, infinity, what no half float holds and light below what rounding
+/// explains are marked by Y = -1.
 VELLUS_FN vec3 taa_load(vec3 c) {
-    bool usable = is_finite(c) && max(abs(c.x), max(abs(c.y), abs(c.z))) < 65000.0f;
+    bool usable = is_finite(c) && max(c.x, max(c.y, c.z)) < 65000.0f && min(c.x, min(c.y, c.z)) > -0.01f;
     return usable ? rgb_to_ycocg(clamp(c, vec3(0.0f), vec3(kTaaMax))) : vec3(-1.0f, 0.0f, 0.0f);
 }
 
