@@ -7,6 +7,7 @@
 #define VELLUS_TEMPORAL_TAA_GLSL
 #include "common/portable.glsl"
 
+const float kTaaPlain = 2.0f;   // pre-exposed luminance up to which every frame counts alike
 const float kTaaMax = 1024.0f;  // pre-exposed white is about 1; keeps fp16 history exact enough
 
 /// Black for NaN and infinity, else clamped to [0, kTaaMax].
@@ -61,7 +62,13 @@ VELLUS_FN vec3 taa_clamp(TaaBox box, vec3 history) {
     return box.low.x > box.high.x ? history : clamp(history, box.low, box.high);
 }
 
-VELLUS_FN float taa_weight(float luma) { return 1.0f / (1.0f + max(luma, 0.0f)); }
+/// Karis's weight against fireflies, only above kTaaPlain: below, where bright dithered strands over a dark
+/// background (or dark over bright) lie, the mean of frames has to be the coverage.
+/// Far above, where a single pixel of one frame is garbage more often than light, nothing of it is left.
+VELLUS_FN float taa_weight(float luma) {
+    float above = max(luma - kTaaPlain, 0.0f);
+    return 1.0f / (1.0f + above + above * above * 0.015625f);
+}
 
 /// New history, linear RGB. `current` and `history` are YCoCg, `history` already clamped; `blend` in
 /// [0, 1] is the share of the current frame: 1 where there is no history. A marked `current` leaves the
@@ -73,6 +80,15 @@ VELLUS_FN vec3 taa_resolve(vec3 current, vec3 history, float blend) {
     float wc = blend * taa_weight(current.x);
     float wh = (1.0f - blend) * taa_weight(history.x);
     return max(ycocg_to_rgb(mix(history, current, wc / (wc + wh))), vec3(0.0f));
+}
+
+/// Dithered strands as thin as this: the share of a history's memory of hair that one frame without any hair
+/// in the window takes away; while some is left its colour is not clamped.
+const float kTaaForget = 0.26f;
+/// What moves leaves a ghost, so only hair that stays where it was is remembered.
+VELLUS_FN float taa_memory(bool hair, bool still, float before) {
+    if (!still) return 0.0f;
+    return hair ? 1.0f : max(before - kTaaForget, 0.0f);
 }
 
 /// 1 (take the current frame alone) where last frame's position lies outside the image, else `blend`.

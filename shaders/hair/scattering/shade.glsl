@@ -1,3 +1,4 @@
+#include "common/hair_mark.glsl"
 #include "common/view.glsl"
 #include "hair/cards/sample.glsl"
 #include "hair/geometry/instance.glsl"
@@ -105,7 +106,7 @@ void main() {
     vec3 position = (hair.to_relative * vec4(at.position, 1.0)).xyz;
     vec3 tangent = normalize(mat3(hair.to_relative) * at.tangent);
     vec3 radiance = shade(surface, position, tangent, at.ambient);
-    imageStore(color, pixel, vec4(min(radiance, vec3(60000.0)), 1.0));
+    imageStore(color, pixel, vec4(min(radiance, vec3(60000.0)), kHairMark));
 
     vec4 before = hair.previous_to_clip * vec4(previous, 1.0);
     vec2 moved = view.cut != 0u || before.w <= 0.0

@@ -61,13 +61,39 @@ TEST(Taa, TwoHistoriesNeverMoveApart) {
     }
 }
 
-TEST(Taa, ResolveWeighsByLuminance) {
-    // Karis 2014: Σ w c / Σ w with w = share / (1 + luma); grey of 1 against grey of 3, half and
-    // half.
-    const glm::vec3 value = glsl::taa_resolve({1, 0, 0}, {3, 0, 0}, 0.5f);
-    EXPECT_NEAR(value.x, (1.0 / 2.0 + 3.0 / 4.0) / (1.0 / 2.0 + 1.0 / 4.0), 1e-6);
+TEST(Taa, ResolveWeighsHighlightsByLuminance) {
+    // After Karis 2014: Σ w c / Σ w with w = share / (1 + x + x²/64), x the luma above white; grey
+    // of 1 against grey of 5, half and half.
+    const glm::vec3 value = glsl::taa_resolve({1, 0, 0}, {5, 0, 0}, 0.5f);
+    const double excess = 5.0 - double{glsl::kTaaPlain};
+    const double above = 1.0 / (1.0 + excess + excess * excess / 64.0);
+    EXPECT_NEAR(value.x, (1.0 + 5.0 * above) / (1.0 + above), 1e-6);
     EXPECT_EQ(glsl::taa_blend({0.5f, 0.5f}, 0.1f), 0.1f);
     EXPECT_EQ(glsl::taa_blend({-0.01f, 0.5f}, 0.1f), 1.0f);
+}
+
+TEST(Taa, DitheredStrandsAverageToTheirCoverage) {
+    // White drawn in one frame of eight over black, as dither does, is an eighth of white.
+    const float blend = 0.06f;
+    glm::vec3 history(0.0f);
+    double sum = 0.0;
+    constexpr int kFrames = 800;
+    for (int frame = 0; frame < 2 * kFrames; ++frame) {
+        const glm::vec3 drawn(frame % 8 == 0 ? 1.0f : 0.0f);
+        history = glsl::taa_resolve(glsl::taa_load(drawn), glsl::rgb_to_ycocg(history), blend);
+        if (frame >= kFrames) sum += double{history.x} / kFrames;
+    }
+    EXPECT_NEAR(sum, 1.0 / 8.0, 1e-4);
+}
+
+TEST(Taa, RemembersHairForThreeFramesWithoutAny) {
+    float memory = glsl::taa_memory(true, true, 0.0f);
+    EXPECT_EQ(memory, 1.0f);
+    int frames = 0;
+    while ((memory = glsl::taa_memory(false, true, memory)) > 0.0f) ++frames;
+    EXPECT_EQ(frames, 3) << "what hair leaves behind must not stay longer";
+    EXPECT_EQ(glsl::taa_memory(false, true, 0.0f), 0.0f);
+    EXPECT_EQ(glsl::taa_memory(true, false, 1.0f), 0.0f) << "moving hair leaves ghosts";
 }
 
 TEST(Taa, CatmullRomKeepsLinesExactly) {
