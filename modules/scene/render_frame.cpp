@@ -30,6 +30,7 @@ void begin_frame(Res<const ViewState> state, Res<RenderFrame> frame) {
     frame->lights = 0;
     frame->opaque_shadows = {};
     frame->hair_shadows = frame->hair_layers = {};
+    frame->hair_pixels = {};
     frame->display = {};
 
     const auto image = [&](const char* name, gpu::Format format) {

@@ -8,6 +8,7 @@
 #include "engine/gpu/device.h"
 #include "engine/gpu/pipeline_library.h"
 #include "engine/gpu/upload_ring.h"
+#include "modules/scene/pixel_rect.h"
 #include "modules/scene/view.h"
 
 namespace vellus::scene {
@@ -36,6 +37,7 @@ struct RenderFrame {
     graph::ImageHandle opaque_shadows;  ///< atlas of light::PunctualLight's tiles, D32F
     graph::BufferHandle hair_shadows;   ///< maps of all lights, one after the other
     graph::BufferHandle hair_layers;    ///< deep opacity maps of all lights; invalid where none are
+    PixelRect hair_pixels;              ///< no hair is drawn outside
     graph::ImageHandle display;         ///< sRGB-encoded RGBA8: what is shown and saved
 
     /// The first thing that went wrong while describing; the host reports it and stops.

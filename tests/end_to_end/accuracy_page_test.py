@@ -33,6 +33,17 @@ def make_page(program, folder):
     return folder / "accuracy.html"
 
 
+class LocalService(Service):
+    """By address: a bare system need not know the name localhost, which Selenium goes by."""
+
+    @property
+    def service_url(self):
+        return f"http://127.0.0.1:{self.port}"
+
+    def is_connectable(self):
+        return utils.is_connectable(self.port, "127.0.0.1")
+
+
 def open_browser(profile, width):
     options = Options()
     options.binary_location = BROWSER
@@ -41,7 +52,7 @@ def open_browser(profile, width):
                  "--force-device-scale-factor=1", "--hide-scrollbars", f"--user-data-dir={profile}", f"--window-size={width},1000"):
         options.add_argument(flag)
     options.set_capability("goog:loggingPrefs", {"performance": "ALL", "browser": "ALL"})
-    browser = webdriver.Chrome(service=Service(DRIVER), options=options)
+    browser = webdriver.Chrome(service=LocalService(DRIVER), options=options)
     # A window is never as narrow as a phone; what it shows is.
     browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                             {"width": width, "height": 1000, "deviceScaleFactor": 1, "mobile": False})

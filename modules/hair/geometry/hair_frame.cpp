@@ -13,7 +13,7 @@ namespace vellus::hair {
 namespace {
 
 /// Pixels that the box may touch; all where it reaches behind the camera.
-PixelRect pixels_of(const scene::Box& box, const scene::ViewState& view) {
+scene::PixelRect pixels_of(const scene::Box& box, const scene::ViewState& view) {
     const glm::vec2 size(view.view.size);
     glm::vec2 low(size);
     glm::vec2 high(0.0f);

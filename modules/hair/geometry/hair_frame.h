@@ -14,6 +14,7 @@
 #include "modules/light/light_set.h"
 #include "modules/scene/bounds.h"
 #include "modules/scene/components.h"
+#include "modules/scene/pixel_rect.h"
 #include "modules/scene/view.h"
 
 namespace vellus::hair {
@@ -54,12 +55,6 @@ struct HairInstance {
 };
 static_assert(sizeof(HairInstance) == 448);
 
-/// A rectangle of pixels, `end` not included.
-struct PixelRect {
-    glm::ivec2 first{0};
-    glm::ivec2 end{0};
-};
-
 constexpr uint32_t kNotDeformed = ~0U;
 
 /// A groom whose points this frame are not its rest points: carried by a mesh, or free to be moved.
@@ -99,7 +94,7 @@ struct HairDraw {
     ScatteringTechnique scattering = ScatteringTechnique::kKaris;
     MultipleTechnique multiple = MultipleTechnique::kFakeNormal;
     FibreOptics optics;
-    PixelRect rect;
+    scene::PixelRect rect;
 };
 
 /// Why an axis of a groom is drawn the way it is.

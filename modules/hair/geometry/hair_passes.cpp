@@ -32,7 +32,7 @@ struct ShadePush {
     VkDeviceAddress projected;
     uint32_t first_id;
     uint32_t segment_count;
-    PixelRect rect;
+    scene::PixelRect rect;
     int32_t width;
     uint32_t padding = 0;
 };
@@ -338,6 +338,9 @@ void describe_hair(Res<HairFrame> hair, Res<const light::LightSet> lights,
     if (!make_pipelines(*hair, lights->block, *pipelines, *frame)) return;
     const auto visibility = hair->visibility = describe_visibility(*hair, *pipelines, *frame);
 
+    for (const HairDraw& draw : hair->draws) {
+        frame->hair_pixels = scene::around(frame->hair_pixels, draw.rect);
+    }
     auto pass = frame->graph.add_pass("hair/shade", PassKind::kCompute);
     pass.read(visibility, Access::kStorageRead);
     if (hair->points > 0) pass.read(hair->projected, Access::kStorageRead);
