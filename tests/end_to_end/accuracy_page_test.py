@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 """The page of vellus_accuracy in a browser: a tiny real run, then clicks through axes and points at two widths.
 
-accuracy_page_test.py PROGRAM [--page FILE.html] [--shots DIR]   (exit status 77: no browser here)
+accuracy_page_test.py PROGRAM [--page FILE.html] [--shots DIR]   (exit status 77: no browser here, or none that can be driven)
 """
 import argparse
 import json
 import os
 import pathlib
 import shutil
+import socket
 import subprocess
 import sys
 import tempfile
@@ -33,17 +34,6 @@ def make_page(program, folder):
     return folder / "accuracy.html"
 
 
-class LocalService(Service):
-    """By address: a bare system need not know the name localhost, which Selenium goes by."""
-
-    @property
-    def service_url(self):
-        return f"http://127.0.0.1:{self.port}"
-
-    def is_connectable(self):
-        return utils.is_connectable(self.port, "127.0.0.1")
-
-
 def open_browser(profile, width):
     options = Options()
     options.binary_location = BROWSER
@@ -52,7 +42,7 @@ def open_browser(profile, width):
                  "--force-device-scale-factor=1", "--hide-scrollbars", f"--user-data-dir={profile}", f"--window-size={width},1000"):
         options.add_argument(flag)
     options.set_capability("goog:loggingPrefs", {"performance": "ALL", "browser": "ALL"})
-    browser = webdriver.Chrome(service=LocalService(DRIVER), options=options)
+    browser = webdriver.Chrome(service=Service(DRIVER), options=options)
     # A window is never as narrow as a phone; what it shows is.
     browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                             {"width": width, "height": 1000, "deviceScaleFactor": 1, "mobile": False})
@@ -149,6 +139,13 @@ def check_page(page, width, shots):
         shutil.rmtree(profile, ignore_errors=True)
 
 
+def knows_localhost():
+    try:
+        return bool(socket.getaddrinfo("localhost", None))
+    except socket.gaierror:
+        return False
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
@@ -156,6 +153,9 @@ def main():
     parser.add_argument("--shots")
     arguments = parser.parse_args()
     if not (os.path.exists(BROWSER) and os.path.exists(DRIVER)):
+        sys.exit(SKIPPED)
+    if not knows_localhost():
+        print("skipped: no address for localhost, by which the browser's driver goes: echo 127.0.0.1 localhost >> /etc/hosts")
         sys.exit(SKIPPED)
     with tempfile.TemporaryDirectory(prefix="vellus_accuracy_") as folder:
         page = arguments.page or make_page(arguments.program, pathlib.Path(folder))
