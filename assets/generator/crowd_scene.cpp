@@ -109,14 +109,6 @@ Rig add_person(GltfScene& scene, size_t index, const std::vector<Json>& geometry
     return rig;
 }
 
-std::vector<double> key_times(size_t keys, double seconds) {
-    std::vector<double> times;
-    for (size_t key = 0; key <= keys; ++key) {
-        times.push_back(seconds * static_cast<double>(key) / static_cast<double>(keys));
-    }
-    return times;
-}
-
 /// Everybody at ease, and the player's walk in place.
 void add_clips(GltfScene& scene, const std::vector<Rig>& rigs) {
     std::vector<Track> tracks;
@@ -127,9 +119,9 @@ void add_clips(GltfScene& scene, const std::vector<Rig>& rigs) {
             tracks.push_back(std::move(track));
         }
     }
-    scene.add_clip("idle", key_times(kKeys, kSeconds), tracks);
+    scene.add_clip("idle", GltfScene::key_times(kKeys, kSeconds), tracks);
     const Gait gait;
-    scene.add_clip("walk", key_times(kStrideKeys, gait.stride_seconds),
+    scene.add_clip("walk", GltfScene::key_times(kStrideKeys, gait.stride_seconds),
                    GltfScene::tracks_of(rigs[kPlayer], kStrideKeys, [&](size_t key) {
                        return walk_pose(gait, static_cast<double>(key) / kStrideKeys);
                    }));

@@ -31,11 +31,8 @@ GltfScene make_fur_scene(const std::vector<SkinnedPart>& fox) {
     scene.add_ground({.path_radius = 6.0, .path_width = 1.4, .center = {-3.4, 0.0, -4.0}});
     scene.add_camera({0.72, 0.62, 1.02}, {0.0, 0.345, 0.0}, 0.66);
     scene.add_sun({0.45, 0.62, 0.64}, {1.0, 0.93, 0.82}, 3.2);
-    std::vector<double> times;
-    for (size_t key = 0; key <= kKeys; ++key) {
-        times.push_back(kSeconds * static_cast<double>(key) / kKeys);
-    }
-    scene.add_clip("look_around", times, GltfScene::tracks_of(rig, kKeys, [](size_t key) {
+    scene.add_clip("look_around", GltfScene::key_times(kKeys, kSeconds),
+                   GltfScene::tracks_of(rig, kKeys, [](size_t key) {
                        return fox_pose(static_cast<double>(key % kKeys) / kKeys);
                    }));
     return scene;

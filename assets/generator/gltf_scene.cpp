@@ -173,6 +173,14 @@ void GltfScene::add_clip(const std::string& name, std::span<const double> times,
     clips_.push_back({{"name", name}, {"channels", channels}, {"samplers", samplers}});
 }
 
+std::vector<double> GltfScene::key_times(size_t keys, double seconds) {
+    std::vector<double> times;
+    for (size_t key = 0; key <= keys; ++key) {
+        times.push_back(seconds * static_cast<double>(key) / static_cast<double>(keys));
+    }
+    return times;
+}
+
 std::vector<Track> GltfScene::tracks_of(const Rig& rig, size_t keys,
                                         const std::function<Pose(size_t)>& pose) {
     std::vector<Track> tracks;

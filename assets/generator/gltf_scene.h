@@ -57,6 +57,8 @@ class GltfScene {
     /// Keys at these times in seconds, increasing.
     void add_clip(const std::string& name, std::span<const double> times,
                   std::span<const Track> tracks);
+    /// Times of `keys` + 1 keys that divide `seconds` evenly, from 0.
+    static std::vector<double> key_times(size_t keys, double seconds);
     /// Joint tracks of a clip whose keys are `pose(0)` to `pose(keys)`.
     static std::vector<Track> tracks_of(const Rig& rig, size_t keys,
                                         const std::function<Pose(size_t)>& pose);

@@ -14,14 +14,6 @@ constexpr size_t kStrideKeys = 32;
 constexpr size_t kIdleKeys = 48;
 constexpr double kIdleSeconds = 8.0;
 
-std::vector<double> key_times(size_t keys, double seconds) {
-    std::vector<double> times;
-    for (size_t i = 0; i <= keys; ++i) {
-        times.push_back(seconds * static_cast<double>(i) / static_cast<double>(keys));
-    }
-    return times;
-}
-
 /// A lap: the figure goes round at an even speed and takes its strides.
 void add_lap(GltfScene& scene, const Rig& rig, Node person) {
     const Gait gait = lap_gait();
@@ -39,7 +31,7 @@ void add_lap(GltfScene& scene, const Rig& rig, Node person) {
             {heading * dvec3(-gait.turn_radius, 0.0, 0.0), heading * dvec3(0.0, 0.0, speed)});
     }
     tracks.push_back(std::move(way));
-    scene.add_clip("stroll", key_times(keys, gait.stride_seconds * kLapStrides), tracks);
+    scene.add_clip("stroll", GltfScene::key_times(keys, gait.stride_seconds * kLapStrides), tracks);
 }
 
 void add_clips_in_place(GltfScene& scene, const Rig& rig) {
@@ -48,9 +40,9 @@ void add_clips_in_place(GltfScene& scene, const Rig& rig) {
         return walk_pose(gait, static_cast<double>(key) / kStrideKeys);
     };
     const auto stand = [](size_t key) { return idle_pose(static_cast<double>(key) / kIdleKeys); };
-    scene.add_clip("walk", key_times(kStrideKeys, gait.stride_seconds),
+    scene.add_clip("walk", GltfScene::key_times(kStrideKeys, gait.stride_seconds),
                    GltfScene::tracks_of(rig, kStrideKeys, step));
-    scene.add_clip("idle", key_times(kIdleKeys, kIdleSeconds),
+    scene.add_clip("idle", GltfScene::key_times(kIdleKeys, kIdleSeconds),
                    GltfScene::tracks_of(rig, kIdleKeys, stand));
 }
 
