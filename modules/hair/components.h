@@ -1,12 +1,12 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "modules/hair/cards/card_buffers.h"
-#include "modules/hair/environment/ambient_pieces.h"
 #include "modules/hair/geometry/strand_buffers.h"
 #include "modules/hair/groom/groom_report.h"
 #include "modules/hair/groom/hair_material.h"
@@ -45,7 +45,7 @@ struct LibraryGroom {
     /// Of cards: CardGroom::parameters.
     std::vector<uint16_t> card_parameters;
     /// Of cards: what their ambient depths are made of, until they are.
-    AmbientPieces card_pieces;
+    std::shared_ptr<const CardGroom> card_source;
     /// See StrandData::levels.
     std::vector<StrandLevel> levels;
     /// Length of all strands over the area they are seen on from the side, 1/metres: layers of hair

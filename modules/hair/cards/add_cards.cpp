@@ -23,7 +23,7 @@ Result<uint32_t> add_cards(World& world, gpu::Device& device, const std::string&
                               .positions = cards.points,
                               .strand_begin = cards.card_begin,
                               .card_parameters = cards.parameters,
-                              .card_pieces = card_pieces(cards),
+                              .card_source = std::make_shared<const CardGroom>(cards),
                               .bounds = bounds_of(cards),
                               .outermost = outermost_points(cards.points),
                               .has_colors = !cards.atlas.color.empty()});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "modules/hair/cards/card_groom.h"
 #include "modules/hair/environment/ambient_depth.h"
 
 namespace vellus::hair {
@@ -11,14 +12,15 @@ namespace {
 
 Result<void> upload(gpu::Device& device, LibraryGroom& groom) {
     const float width = groom.width > 0.0f ? groom.width : kNominalWidth;
-    const auto depths = groom.cards
-                            ? ambient_depths(groom.positions, groom.strand_begin, groom.card_pieces)
-                            : ambient_depths(groom.positions, groom.strand_begin, width);
+    const auto depths =
+        groom.card_source
+            ? ambient_depths(groom.positions, groom.strand_begin, card_pieces(*groom.card_source))
+            : ambient_depths(groom.positions, groom.strand_begin, width);
     const auto packed = pack_ambient_depths(depths);
     auto buffer = gpu::Buffer::upload_span(device, std::span(packed), "hair ambient depths");
     if (!buffer) return buffer.error();
     groom.strands.ambient = std::move(*buffer);
-    groom.card_pieces = {};
+    groom.card_source.reset();
     return {};
 }
 
