@@ -129,20 +129,21 @@ void gather_hair(CpuHost& host, const glm::dvec3& camera,
     const auto& poses = world.resource<hair::HairPoses>().list;
     const auto& motions = world.resource<hair::HairMotions>().list;
     world
-        .query<Entity, const hair::Hair, const scene::WorldTransform, const hair::HairMaterial,
-               const hair::HairWidth, const hair::HairTechniques, const hair::HairBinding*>()
-        .each([&](Entity entity, const hair::Hair& item, const scene::WorldTransform& placed,
+        .query<const hair::Hair, const scene::WorldTransform, const hair::HairMaterial,
+               const hair::HairWidth, const hair::HairTechniques, const hair::HairBinding*,
+               const hair::HairMotion*, const hair::HairMoves*>()
+        .each([&](const hair::Hair& item, const scene::WorldTransform& placed,
                   const hair::HairMaterial& material, const hair::HairWidth& width,
-                  const hair::HairTechniques& techniques, const hair::HairBinding* binding) {
+                  const hair::HairTechniques& techniques, const hair::HairBinding* binding,
+                  const hair::HairMotion* motion, const hair::HairMoves* moves) {
             const StrandData& strands = host.strands(item.groom);
             if (strands.segment_count() == 0 || material.alpha <= 0.0f) return;
             const bool bound = binding != nullptr && binding->pose != hair::kNoPose;
             auto points = bound ? bound_points(bindings[binding->roots].roots, poses[binding->pose])
                                 : rigid_points(strands, placed.matrix);
-            const auto* const moves = world.get<hair::HairMoves>(entity);
-            if (moves != nullptr && moves->now) {
-                hair::bend_strands(*motions[world.get<hair::HairMotion>(entity)->slot],
-                                   strands.strand_begin, strands.point_parameter, points);
+            if (motion != nullptr && moves != nullptr && moves->now) {
+                hair::bend_strands(*motions[motion->slot], strands.strand_begin,
+                                   strands.point_parameter, points);
             }
             grooms.push_back(make_groom(strands, library[item.groom], points,
                                         diameters(strands, width, placed.matrix), width.tip_scale,

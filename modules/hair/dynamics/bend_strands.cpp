@@ -26,10 +26,9 @@ glsl::Transfer transfer_of(const GroomMotion& groom) {
     glsl::Transfer transfer{{}, guides.links};
     transfer.turns.reserve(size_t{guides.count} * guides.links);
     for (uint32_t g = 0; g < guides.count; ++g) {
-        for (uint32_t i = 0; i < guides.links; ++i) {
-            const glm::quat turn = link_turn(groom, g, i);
+        visit_link_turns(groom, g, [&](uint32_t, const glm::quat& turn) {
             transfer.turns.emplace_back(turn.x, turn.y, turn.z, turn.w);
-        }
+        });
     }
     return transfer;
 }

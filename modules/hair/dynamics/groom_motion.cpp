@@ -192,14 +192,6 @@ bool place_roots(const BoundRoots* bound, const HairPose* pose, const glm::dmat4
     return true;
 }
 
-glm::quat link_turn(const GroomMotion& groom, uint32_t guide, uint32_t link) {
-    const GuideColumns& rotation = groom.motion.state().rotation;
-    const glm::quat local(rotation.at(3, link)[guide], rotation.at(0, link)[guide],
-                          rotation.at(1, link)[guide], rotation.at(2, link)[guide]);
-    const glm::quat root(groom.roots[guide].turn);
-    return root * local * glm::conjugate(root);
-}
-
 void write_turns(GroomMotion& groom) {
     const GuideSet& guides = groom.motion.guides();
     groom.slot = (groom.slot + 1) % kTurnSlots;
@@ -209,13 +201,12 @@ void write_turns(GroomMotion& groom) {
                               : nullptr;
     float most = 0.0f;
     for (uint32_t g = 0; g < guides.count; ++g) {
-        for (uint32_t i = 0; i < guides.links; ++i) {
-            const glm::quat turn = link_turn(groom, g, i);
+        visit_link_turns(groom, g, [&](uint32_t link, const glm::quat& turn) {
             most = std::max({most, std::abs(turn.x), std::abs(turn.y), std::abs(turn.z)});
-            if (out == nullptr) continue;
-            out[size_t{g} * guides.links + i] =
+            if (out == nullptr) return;
+            out[size_t{g} * guides.links + link] =
                 glm::packSnorm4x16(glm::vec4(turn.x, turn.y, turn.z, turn.w));
-        }
+        });
     }
     groom.bent = most > kUnbent;
 }

@@ -75,8 +75,19 @@ bool remove_motion(World& world, Entity hair);
 bool place_roots(const BoundRoots* bound, const HairPose* pose, const glm::dmat4& world,
                  GroomMotion& out, double& scale);
 
-/// How a guide's link is turned from where its root carries it, in the world.
-glm::quat link_turn(const GroomMotion& groom, uint32_t guide, uint32_t link);
+/// Calls `visit(link, turn)` for the links of a guide: how each is turned from where its root
+/// carries it, in the world.
+template <class Visit>
+void visit_link_turns(const GroomMotion& groom, uint32_t guide, const Visit& visit) {
+    const GuideColumns& rotation = groom.motion.state().rotation;
+    const glm::quat root(groom.roots[guide].turn);
+    const glm::quat back = glm::conjugate(root);
+    for (uint32_t i = 0; i < groom.motion.guides().links; ++i) {
+        const glm::quat local(rotation.at(3, i)[guide], rotation.at(0, i)[guide],
+                              rotation.at(1, i)[guide], rotation.at(2, i)[guide]);
+        visit(i, root * local * back);
+    }
+}
 /// Writes these turns into the next slot, if there is a device, and notes whether any link is
 /// turned (`bent`).
 void write_turns(GroomMotion& groom);
