@@ -1,34 +1,18 @@
-#include "game_demo/src/content.h"
-#include "game_demo/src/renderer.h"
 #include "modules/character/components.h"
-#include "modules/hair/dynamics/components.h"
 #include "modules/hair/dynamics/groom_motion.h"
-#include "tests/support/gpu_fixture.h"
+#include "tests/unit/game_demo/scene_test.h"
 
 // The project's own crowd, as the demo draws it.
 namespace vellus::demo {
 namespace {
 
-class CrowdMotion : public test::GpuTest {
+class CrowdMotion : public SceneTest {
   protected:
     void SetUp() override {
-        GpuTest::SetUp();
-        auto made = Renderer::create(device(), {});
-        ASSERT_TRUE(made) << made.error().message();
-        renderer_ = std::move(*made);
-        Options options;
-        options.scene = VELLUS_SOURCE_DIR "/assets/scenes/crowd.gltf";
-        options.size = {64, 64};
-        ASSERT_TRUE(load_content(*renderer_, options));
-        world().query<hair::HairMotion>().each([](hair::HairMotion& motion) {
-            motion.smallest_pixels = 0.0f;
-            motion.solver = hair::MotionSolver::kProcessor;
-        });
-    }
-    World& world() { return renderer_->world(); }
-    void draw() {
-        EXPECT_TRUE(renderer_->draw(Output::kNowhere));
-        EXPECT_TRUE(renderer_->wait());
+        SceneTest::SetUp();
+        ASSERT_NO_FATAL_FAILURE(open("crowd"));
+        world().query<hair::HairMotion>().each(
+            [](hair::HairMotion& motion) { motion.solver = hair::MotionSolver::kProcessor; });
     }
     character::AnimationPlayer& clips() {
         Entity found = kNoEntity;
@@ -52,19 +36,16 @@ class CrowdMotion : public test::GpuTest {
         }
         return points;
     }
-
-  private:
-    std::unique_ptr<Renderer> renderer_;
 };
 
 TEST_F(CrowdMotion, HairOfPeopleWhoStandStillStaysWhereTheFirstFrameShowsIt) {
     clips().speed = 0.0;
-    draw();
+    draw_frame();
     const std::vector<glm::dvec3> first = guide_points();
     ASSERT_FALSE(first.empty());
     double worst = 0.0;
     for (int frame = 1; frame <= 60; ++frame) {
-        draw();
+        draw_frame();
         const std::vector<glm::dvec3> now = guide_points();
         for (size_t i = 0; i < now.size(); ++i) {
             worst = std::max(worst, glm::distance(now[i], first[i]));

@@ -1,33 +1,22 @@
-#include "game_demo/src/content.h"
-#include "game_demo/src/renderer.h"
 #include "modules/hair/binding/bind_hair.h"
 #include "modules/hair/binding/deform_passes.h"
 #include "modules/hair/cards/add_cards.h"
 #include "modules/hair/dynamics/groom_motion.h"
 #include "modules/hair/geometry/hair_frame.h"
 #include "modules/scene/components.h"
-#include "tests/support/gpu_fixture.h"
+#include "tests/unit/game_demo/scene_test.h"
 
 // The project's own walking figure with moving hair, as the demo draws it.
 namespace vellus::demo {
 namespace {
 
-class WalkMotion : public test::GpuTest {
+class WalkMotion : public SceneTest {
   protected:
     void SetUp() override {
-        GpuTest::SetUp();
-        auto made = Renderer::create(device(), {});
-        ASSERT_TRUE(made) << made.error().message();
-        renderer_ = std::move(*made);
-        Options options;
-        options.scene = VELLUS_SOURCE_DIR "/assets/scenes/walk.gltf";
-        options.size = {64, 64};
-        ASSERT_TRUE(load_content(*renderer_, options));
+        SceneTest::SetUp();
+        ASSERT_NO_FATAL_FAILURE(open("walk"));
         world().query<Entity, hair::HairMotion>().each(
-            [&](Entity entity, hair::HairMotion& motion) {
-                motion.smallest_pixels = 0.0f;
-                person_ = entity;
-            });
+            [&](Entity entity, const hair::HairMotion&) { person_ = entity; });
         ASSERT_TRUE(person_ != kNoEntity) << "the scene asks for motion";
     }
     /// The same hair as cards built from its strands.
@@ -46,7 +35,6 @@ class WalkMotion : public test::GpuTest {
         const hair::HairMotion motion = *world().get<hair::HairMotion>(person_);
         ASSERT_TRUE(hair::add_motion(world(), device(), person_, motion));
     }
-    World& world() { return renderer_->world(); }
     const hair::LibraryGroom& groom() {
         return world()
             .resource<hair::HairLibrary>()
@@ -62,8 +50,7 @@ class WalkMotion : public test::GpuTest {
     }
     /// Draws a frame and fetches the strands' points, in the world; none where they do not move.
     std::vector<glm::dvec3> draw() {
-        EXPECT_TRUE(renderer_->draw(Output::kNowhere));
-        EXPECT_TRUE(renderer_->wait());
+        draw_frame();
         if (!world().get<hair::HairMoves>(person_)->now) return {};
         const hair::HairDeform& deform = world().resource<hair::HairFrame>().deforms.at(0);
         EXPECT_EQ(deform.entity, person_);
@@ -76,7 +63,6 @@ class WalkMotion : public test::GpuTest {
     }
 
   private:
-    std::unique_ptr<Renderer> renderer_;
     Entity person_ = kNoEntity;
 };
 

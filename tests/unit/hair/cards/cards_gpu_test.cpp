@@ -286,28 +286,47 @@ TEST_F(CardsTest, SteadyFramesMakeNothingAndAreTheSame) {
     EXPECT_GT(count_lit(pictures[0]), 1000u);
 }
 
-TEST_F(CardsTest, CardsReadAsTheirStrandsFromEightSides) {
-    const std::filesystem::path groom =
-        std::filesystem::path(VELLUS_SOURCE_DIR) / "assets/grooms/long.hair";
-    auto strands = test::load_upright_strands(groom);
-    ASSERT_TRUE(strands) << strands.error().message();
-    auto built = build_cards(*strands, {});
-    ASSERT_TRUE(built) << built.error().message();
-    auto views = CardViews::create(device(), glm::uvec2(224));
-    ASSERT_TRUE(views);
-    World& world = (*views)->world();
-    auto strand_groom = add_strands(world, device(), "strands", *strands, {});
-    auto card_groom = add_cards(world, device(), "cards", built->cards);
-    ASSERT_TRUE(strand_groom && card_groom);
-    const auto outermost = world.resource<HairLibrary>().grooms[*strand_groom].outermost;
+/// Long hair as strands and as the cards built from them, seen from around.
+class LongHairTest : public test::GpuTest {
+  protected:
+    void SetUp() override {
+        GpuTest::SetUp();
+        const std::filesystem::path groom =
+            std::filesystem::path(VELLUS_SOURCE_DIR) / "assets/grooms/long.hair";
+        const auto strands = test::load_upright_strands(groom);
+        ASSERT_TRUE(strands) << strands.error().message();
+        const auto built = build_cards(*strands, {});
+        ASSERT_TRUE(built) << built.error().message();
+        auto views = CardViews::create(device(), glm::uvec2(224));
+        ASSERT_TRUE(views);
+        views_ = *std::move(views);
+        const auto strand_groom = add_strands(world(), device(), "strands", *strands, {});
+        const auto card_groom = add_cards(world(), device(), "cards", built->cards);
+        ASSERT_TRUE(strand_groom && card_groom);
+        strands_ = *strand_groom;
+        cards_ = *card_groom;
+    }
+    World& world() { return views_->world(); }
+    Entity hair() { return views_->hair(); }
+    test::CardComparison compare_from(double yaw) {
+        const auto outermost = world().resource<HairLibrary>().grooms[strands_].outermost;
+        views_->show(strands_);
+        const auto expected = views_->draw(outermost, yaw, 1.0, 8);
+        views_->show(cards_);
+        const auto drawn = views_->draw(outermost, yaw, 1.0, 8);
+        EXPECT_TRUE(expected && drawn);
+        return expected && drawn ? test::compare(*expected, *drawn) : test::CardComparison{};
+    }
+
+  private:
+    std::unique_ptr<CardViews> views_;
+    uint32_t strands_ = 0;
+    uint32_t cards_ = 0;
+};
+
+TEST_F(LongHairTest, CardsReadAsTheirStrandsFromEightSides) {
     for (int side = 0; side < 8; ++side) {
-        const double yaw = side * std::numbers::pi / 4.0;
-        (*views)->show(*strand_groom);
-        const auto expected = (*views)->draw(outermost, yaw, 1.0, 8);
-        (*views)->show(*card_groom);
-        const auto drawn = (*views)->draw(outermost, yaw, 1.0, 8);
-        ASSERT_TRUE(expected && drawn);
-        const test::CardComparison c = test::compare(*expected, *drawn);
+        const test::CardComparison c = compare_from(side * std::numbers::pi / 4.0);
         EXPECT_NEAR(c.luminance_error(), 0.0, 0.05) << "side " << side;
         EXPECT_NEAR(c.silhouette_error(), 0.0, 0.03) << "side " << side;
         EXPECT_EQ(c.bald_blocks, 0) << "side " << side;
@@ -315,30 +334,11 @@ TEST_F(CardsTest, CardsReadAsTheirStrandsFromEightSides) {
     }
 }
 
-TEST_F(CardsTest, CardsKeepAsMuchOfTheSkyAsTheirStrands) {
-    const std::filesystem::path groom =
-        std::filesystem::path(VELLUS_SOURCE_DIR) / "assets/grooms/long.hair";
-    auto strands = test::load_upright_strands(groom);
-    ASSERT_TRUE(strands) << strands.error().message();
-    auto built = build_cards(*strands, {});
-    ASSERT_TRUE(built) << built.error().message();
-    auto views = CardViews::create(device(), glm::uvec2(224));
-    ASSERT_TRUE(views);
-    World& world = (*views)->world();
-    world.query<scene::Light>().each([](scene::Light& sun) { sun.intensity = 0.0f; });
-    *world.get<HairTechniques>((*views)->hair()) = best_techniques();
-    auto strand_groom = add_strands(world, device(), "strands", *strands, {});
-    auto card_groom = add_cards(world, device(), "cards", built->cards);
-    ASSERT_TRUE(strand_groom && card_groom);
-    const auto outermost = world.resource<HairLibrary>().grooms[*strand_groom].outermost;
+TEST_F(LongHairTest, CardsKeepAsMuchOfTheSkyAsTheirStrands) {
+    world().query<scene::Light>().each([](scene::Light& sun) { sun.intensity = 0.0f; });
+    *world().get<HairTechniques>(hair()) = best_techniques();
     for (int side = 0; side < 4; ++side) {
-        const double yaw = side * std::numbers::pi / 2.0;
-        (*views)->show(*strand_groom);
-        const auto expected = (*views)->draw(outermost, yaw, 1.0, 8);
-        (*views)->show(*card_groom);
-        const auto drawn = (*views)->draw(outermost, yaw, 1.0, 8);
-        ASSERT_TRUE(expected && drawn);
-        const test::CardComparison c = test::compare(*expected, *drawn);
+        const test::CardComparison c = compare_from(side * std::numbers::pi / 2.0);
         // Without depths cards are more than three times as bright; what is left is how their
         // places differ from those of their strands.
         EXPECT_NEAR(c.luminance_error(), 0.0, 0.08) << "side " << side;
