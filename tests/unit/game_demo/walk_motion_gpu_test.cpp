@@ -58,6 +58,7 @@ class WalkMotion : public SceneTest {
         EXPECT_TRUE(world().resource<hair::HairDeformation>().points.read_back(
             device(), std::as_writable_bytes(std::span(points))));
         std::vector<glm::dvec3> placed;
+        placed.reserve(points.size());
         for (const glm::vec3& point : points) placed.push_back(deform.anchor + glm::dvec3(point));
         return placed;
     }
