@@ -24,7 +24,7 @@ struct Turntable {
     uint32_t views = 8;
     double pitch = 0.08;  ///< radians from above
     double zoom = 1.0;
-    uint32_t frames = 16;  ///< drawn of each view, so that it converges
+    uint32_t frames = 48;  ///< drawn of each view, so that it converges
     std::filesystem::path out = "out";
     bool sheet = false;  ///< all views in one picture as well
     demo::Options renderer;

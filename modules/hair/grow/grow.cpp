@@ -6,6 +6,7 @@
 
 #include "engine/platform/jobs.h"
 #include "modules/hair/grow/chance.h"
+#include "modules/hair/grow/fullness.h"
 #include "modules/hair/grow/shape.h"
 
 namespace vellus::hair {
@@ -15,6 +16,8 @@ namespace {
 using namespace grow;
 
 constexpr double kSquareCentimetre = 1e-4;
+/// Enough to tell where the head is.
+constexpr uint32_t kHeadRoots = 1024;
 
 uint32_t strand_count(const GrowSettings& settings, double area) {
     if (settings.count > 0) return settings.count;
@@ -84,6 +87,19 @@ Groom to_groom(const GrowSettings& settings, const std::vector<Root>& roots, boo
     return groom;
 }
 
+/// Distances from the parting, by whose sign hair falls to one side. Next to the parting chance has
+/// its say: hair that crosses it covers the skin.
+std::vector<double> choose_sides(const Ground& ground, const std::vector<Root>& roots) {
+    constexpr double kCrossing = 0.03;  // radii of the head
+    std::vector<double> sides(roots.size());
+    if (!(ground.settings.parted > 0.0f)) return sides;
+    for (size_t i = 0; i < roots.size(); ++i) {
+        sides[i] = from_parting(ground.head, ground.settings, roots[i].position) +
+                   kCrossing * spread(ground.seed, static_cast<uint32_t>(i), 8);
+    }
+    return sides;
+}
+
 bool is_gathered(GrowStyle style) {
     return style == GrowStyle::kPonytail || style == GrowStyle::kBraid;
 }
@@ -99,11 +115,13 @@ Result<Groom> grow_groom(const GrowSurface& surface, const GrowSettings& setting
     };
     tell(0.0f);
     const double area = haired_area(surface);
-    const std::vector<Root> roots = scatter_roots(surface, strand_count(settings, area), seed);
+    const Head head = fit_head(scatter_roots(surface, kHeadRoots, seed));
+    const std::vector<Root> roots = scatter_roots(fuller_where_hair_parts(surface, head, settings),
+                                                  strand_count(settings, area), seed);
     if (roots.empty()) return Error{"no hair found a place", "surface", "choose a larger region"};
     tell(0.15f);
     const ClosestPoint body(surface);
-    const Ground ground{body, fit_head(roots), settings, seed};
+    const Ground ground{body, head, settings, seed};
     std::optional<Gather> gather;
     if (is_gathered(settings.style)) gather = make_gather(body, ground.head, settings);
     tell(0.2f);
@@ -115,16 +133,11 @@ Result<Groom> grow_groom(const GrowSurface& surface, const GrowSettings& setting
         }
     });
     tell(0.4f);
-    std::vector<double> from_parting(roots.size());
-    if (settings.parted > 0.0f) {
-        for (size_t i = 0; i < roots.size(); ++i) {
-            from_parting[i] = comb(ground.head, settings, roots[i]).from_parting;
-        }
-    }
-    const auto neighbours = find_neighbours(roots, from_parting, guides.size());
+    const std::vector<double> sides = choose_sides(ground, roots);
+    const auto neighbours = find_neighbours(roots, sides, guides.size());
     Strands strands = interpolate(ground, roots, guides, neighbours, gather);
     tell(0.6f);
-    const Locks locks = find_locks(settings, area, roots, from_parting);
+    const Locks locks = find_locks(settings, area, roots, sides);
     if (!gather) clump(ground, locks, strands);
     tell(0.7f);
     curl_and_settle(ground, locks, roots, gather.has_value(), strands);

@@ -57,12 +57,16 @@ Head fit_head(const std::vector<Root>& roots) {
     return {mean + c * rough.radius, std::sqrt(squared) * rough.radius};
 }
 
+double from_parting(const Head& head, const GrowSettings& settings, dvec3 position) {
+    const dvec3 q = (position - head.center) / head.radius;
+    const double parting = settings.parting * 0.8;
+    const double wobble = 0.012 * wave(2.1 * q.z) + 0.008 * wave(5.3 * q.z + 0.3);
+    return q.x - mix(kCrown.x, parting, smoothstep(-0.55, 0.15, q.z)) - wobble;
+}
+
 Combed comb(const Head& head, const GrowSettings& settings, const Root& root) {
     const dvec3 q = (root.position - head.center) / head.radius;
-    // The parting runs back from the forehead and bends to the crown.
-    const double parting = settings.parting * 0.8;
-    const double line = mix(kCrown.x, parting, smoothstep(-0.55, 0.15, q.z));
-    const double from = q.x - line;
+    const double from = from_parting(head, settings, root.position);
     const double side = from < 0.0 ? -1.0 : 1.0;
     const double front = smoothstep(-0.60, 0.15, q.z) * settings.parted;
     const dvec3 parted(side, -0.10, -0.22 - 0.5 * smoothstep(0.60, 0.90, q.z));

@@ -22,6 +22,10 @@ constexpr glm::dvec3 kCrown{0.10, 0.93, -0.45};
 /// as large as they are spread.
 Head fit_head(const std::vector<Root>& roots);
 
+/// How far a point of the scalp is from the parting, in radii: its sign is the side. The parting
+/// runs back from the forehead, not quite straight, and bends to the crown.
+double from_parting(const Head& head, const GrowSettings& settings, glm::dvec3 position);
+
 /// Which way the comb goes at a point of the scalp, along the skin, unit; and how far it is from
 /// the parting, in radii: its sign is the side.
 struct Combed {

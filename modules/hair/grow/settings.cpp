@@ -109,7 +109,7 @@ GrowSettings preset(GrowStyle style) {
         case GrowStyle::kShort:
             s.length = 0.034f;
             s.length_variation = 0.25f;
-            s.count = 14'000;
+            s.count = 32'000;
             s.points = 10;
             s.clumping = 0.3f;
             s.clump_size = 0.006f;

@@ -28,7 +28,7 @@ struct GrowSettings {
     float length = 0.40f;
     float length_variation = 0.12f;  ///< share by which the shortest hair is shorter
     /// Strands; 0: from `density`.
-    uint32_t count = 10'000;
+    uint32_t count = 16'000;
     float density =
         20.0f;             ///< strands per square centimetre of fully haired skin, where count is 0
     uint32_t points = 16;  ///< of each strand

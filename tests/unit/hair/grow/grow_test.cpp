@@ -128,6 +128,33 @@ TEST(GrowGroom, TaperAndWidthBecomeTheDiameterColumn) {
     EXPECT_TRUE(grow_groom(ball(), settings, 1)->thickness.empty());
 }
 
+TEST(GrowGroom, RootsLieCloserWhereHairPartsAndSomeCrossTheParting) {
+    GrowSettings settings = preset(GrowStyle::kStraight);
+    settings.count = 4000;
+    settings.parting = 0.0f;
+    settings.flyaways = 0.0f;
+    const Groom groom = *grow_groom(ball(), settings, 3);
+    uint32_t near = 0;
+    uint32_t aside = 0;
+    uint32_t crossing = 0;
+    for (size_t s = 0; s < groom.strand_count(); ++s) {
+        // Two stripes of equal area on the ball, for a stripe's area is its width times 2 pi r:
+        // over the parting and down the sides, both well inside the haired part of the top.
+        const glm::vec3 root = groom.points[groom.strand_begin[s]] / kRadius;
+        if (root.z < 0.15f || root.y < 0.65f) continue;
+        const glm::vec3 tip = groom.points[groom.strand_begin[s + 1] - 1] / kRadius;
+        near += std::abs(root.x) < 0.1f ? 1u : 0u;
+        aside += std::abs(root.x) > 0.35f && std::abs(root.x) < 0.45f ? 1u : 0u;
+        crossing += std::abs(root.x) > 0.003f && root.x * tip.x < 0.0f ? 1u : 0u;
+    }
+    // The density falls to 0.35 of the parting's; the side stripe is cut shorter by the bounds on
+    // y and z, which only adds to the ratio.
+    EXPECT_GT(near, 2.2 * aside) << near << " " << aside;
+    EXPECT_GT(crossing, 10u);
+    // Hair from further than the 0.03 radii in which chance decides, and the wobble, stays.
+    EXPECT_LT(crossing, near);
+}
+
 TEST(GrowGroom, HangingHairLeavesTheFaceFree) {
     for (const GrowStyle style : {GrowStyle::kStraight, GrowStyle::kBob, GrowStyle::kWavy,
                                   GrowStyle::kCurly, GrowStyle::kPonytail, GrowStyle::kBraid}) {
