@@ -71,6 +71,7 @@ Result<std::unique_ptr<Player>> Player::find(World& world) {
     player->idle_ = *idle;
     player->clip_speed_ = extension->speed;
     player->ground_ = Ground(world);
+    player->bystanders_ = Bystanders(world, found);
     return player;
 }
 
@@ -99,6 +100,7 @@ void Player::update(World& world, const glm::dvec3& wish, double camera_yaw, dou
     node.rotation = glm::angleAxis(static_cast<float>(heading_), glm::vec3(0.0f, 1.0f, 0.0f));
     node.translation +=
         glm::dvec3(std::sin(heading_), 0.0, std::cos(heading_)) * (speed_ * seconds);
+    node.translation = bystanders_.clear_of(world, node.translation);
     const glm::dvec3& at = node.translation;
     node.translation.y = ground_.height(at.x, at.z, at.y + kHighestStep).value_or(at.y);
     auto& clips = *world.get<character::AnimationPlayer>(instance_root_);

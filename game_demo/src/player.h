@@ -6,6 +6,7 @@
 
 #include "engine/ecs/ecs.h"
 #include "engine/platform/result.h"
+#include "game_demo/src/bystanders.h"
 #include "game_demo/src/ground.h"
 
 namespace vellus::demo {
@@ -21,8 +22,8 @@ struct PlayerExtension {
 /// Errors name field and remedy.
 Result<PlayerExtension> parse_player_extension(std::string_view json, const std::string& where);
 
-/// Walks a character over the ground: eases speed and heading, mixes the clips. Until the first
-/// step the scene's own animation has it.
+/// Walks a character over the ground and around others: eases speed and heading, mixes the clips.
+/// Until the first step the scene's own animation has it.
 class Player {
   public:
     /// The first node with VELLUS_player; null where the scene has none.
@@ -37,6 +38,7 @@ class Player {
     void leave_the_scenes_path(World& world);
 
     Ground ground_;
+    Bystanders bystanders_;
     Entity node_ = kNoEntity;
     Entity instance_root_ = kNoEntity;
     uint32_t idle_ = 0;

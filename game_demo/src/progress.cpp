@@ -11,13 +11,15 @@ namespace vellus::demo {
 
 namespace {
 constexpr uint32_t kBarWidth = 30;
-}
+constexpr double kQuiet = 60.0;  // seconds between lines of a log
+}  // namespace
 
 Progress::Progress(uint32_t total, const char* unit, uint32_t first)
     : total_(total),
       unit_(unit),
       first_(first),
       start_(wall_seconds()),
+      said_(start_),
       visible_(::isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
@@ -25,12 +27,18 @@ Progress::~Progress() {
 }
 
 void Progress::update(uint32_t done) {
-    if (!visible_ || done <= first_) return;
+    if (done <= first_) return;
+    const double now = wall_seconds();
+    const double left = (now - start_) / (done - first_) * (total_ - done);
+    if (!visible_) {
+        if (now - said_ < kQuiet) return;
+        said_ = now;
+        fmt::print(stderr, "{}/{} {}, {:.0f} s left\n", done, total_, unit_, left);
+        return;
+    }
     const auto filled = static_cast<uint32_t>(uint64_t{kBarWidth} * done / total_);
-    const double seconds = wall_seconds() - start_;
     fmt::print(stderr, "\r\033[K[{:#>{}}{:.>{}}] {}/{} {}, {:.0f} s left", "", filled, "",
-               kBarWidth - filled, done, total_, unit_,
-               seconds / (done - first_) * (total_ - done));
+               kBarWidth - filled, done, total_, unit_, left);
     std::fflush(stderr);
 }
 

@@ -4,7 +4,7 @@
 
 namespace vellus::demo {
 
-/// A bar on stderr that says how far a long run is; silent where stderr is no terminal.
+/// A bar on stderr that says how far a long run is; a line a minute where stderr is no terminal.
 class Progress {
   public:
     /// `unit`: what is counted; `first` of them were done before.
@@ -20,6 +20,7 @@ class Progress {
     const char* unit_;
     uint32_t first_;
     double start_;
+    double said_;  ///< when the last line was
     bool visible_;
 };
 

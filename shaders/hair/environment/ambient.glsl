@@ -1,13 +1,14 @@
 // environment=sh_depth: light of the surroundings that finds its way through the hair. Each point of a
 // groom knows how much hair lies around it, as optical depths along the six axes of its groom, worked out
-// when it is loaded (modules/hair/environment/ambient_depth.h). From each axis comes the environment's
-// irradiance/π, less what the hair keeps: e^(-n (1 - a_f)), what passes n fibres untouched or scattered
-// forward only (dual.glsl). Between axes the six values are blended by squared cosines, which add up to
-// one (the ambient cube of J. McTaggart, "Half-Life 2 / Valve Source Shading", GDC 2004).
+// when it is loaded (modules/hair/environment/ambient_depth.h). Along each axis light goes both ways, and
+// every fibre passes a_f of it on and turns a_b of it back (dual.glsl), which leaves the two streams of
+// P. Kubelka and F. Munk (1931). At their ends stands the environment's irradiance/π. Between axes the six
+// values are blended by squared cosines, which add up to one (the ambient cube of J. McTaggart, "Half-Life
+// 2 / Valve Source Shading", GDC 2004).
 //
 // A fibre takes in light from the cone that mirrors the eye's inclination: the half in front of it counts
-// with a_b, the half behind with a_f; the hair behind it turns A_b = R∞ - a_b of what comes from the front.
-// White hair under an even sky then is as bright as the sky, however deep.
+// with a_b, the half behind with a_f. White hair under an even sky is as bright as the sky, however deep, and
+// a half space of hair as bright as R∞.
 #ifndef VELLUS_HAIR_AMBIENT_GLSL
 #define VELLUS_HAIR_AMBIENT_GLSL
 #include "hair/scattering/dual.glsl"
@@ -46,6 +47,32 @@ VELLUS_FN vec3 ambient_blend(vec3 d, VELLUS_IN(AmbientLight) light) {
            w.z * (d.z > 0.0f ? light.along[2] : light.against[2]);
 }
 
+/// What arrives along one axis, from ahead and from behind, at a point with that much hair (optical depth)
+/// on either side of it.
+struct AmbientStreams {
+    vec3 ahead;
+    vec3 behind;
+};
+
+/// Two streams that lose `lost` = 1 - a_f of themselves by optical depth and gain `back` = a_b of each other;
+/// `k` = √(lost² - back²). Exact for a slab that nothing leaves sideways.
+VELLUS_FN AmbientStreams ambient_streams(vec3 lost, vec3 back, vec3 k, float depth_ahead, float depth_behind,
+                                         vec3 light_ahead, vec3 light_behind) {
+    vec3 falloff = -kLog2E * k;
+    vec3 a = exp2(falloff * depth_ahead);
+    vec3 b = exp2(falloff * depth_behind);
+    vec3 a2 = a * a;
+    vec3 b2 = b * b;
+    vec3 one = vec3(1.0f);
+    vec3 share = one / (k * (one + a2 * b2) + lost * (one - a2 * b2));
+    vec3 in_ahead = light_ahead * a * share;
+    vec3 in_behind = light_behind * b * share;
+    AmbientStreams s;
+    s.ahead = in_ahead * (k * (one + b2) + lost * (one - b2)) + in_behind * back * (one - a2);
+    s.behind = in_behind * (k * (one + a2) + lost * (one - a2)) + in_ahead * back * (one - b2);
+    return s;
+}
+
 /// Radiance to the eye. `depths` are in fibres as wide as they are drawn; `tangent` and `normal` are the
 /// frame's in the groom's axes.
 VELLUS_FN vec3 hair_ambient(VELLUS_IN(HairFibre) fibre, HairSurface s, HairFrame f, vec3 tangent, vec3 normal,
@@ -54,15 +81,17 @@ VELLUS_FN vec3 hair_ambient(VELLUS_IN(HairFibre) fibre, HairSurface s, HairFrame
     vec3 half_log = hair_log2_color(s.base_color) * (0.5f * inversesqrt(cos2_t));
     HairAverages m = hair_averages(fibre, s, half_log, f.cos_r);
     float multiple = min(s.scatter, 1.0f);
-    vec3 lost = -kLog2E * (vec3(1.0f) - m.forward * multiple);
+    vec3 lost = vec3(1.0f) - m.forward * multiple;
+    vec3 turned = m.backward * multiple;
+    // Hair that loses nothing still has a falloff: the streams' quotient stays one of floats.
+    vec3 k = sqrt(max((lost - turned) * (lost + turned), vec3(1.0e-6f)));
 
-    AmbientLight through;
     AmbientLight arriving;
     for (int i = 0; i < 3; ++i) {
-        through.along[i] = exp2(lost * depths.along[i]);
-        through.against[i] = exp2(lost * depths.against[i]);
-        arriving.along[i] = light.along[i] * through.along[i];
-        arriving.against[i] = light.against[i] * through.against[i];
+        AmbientStreams streams = ambient_streams(lost, turned, k, depths.along[i], depths.against[i],
+                                                 light.along[i], light.against[i]);
+        arriving.along[i] = streams.ahead;
+        arriving.against[i] = streams.behind;
     }
     // Two directions on either half of the cone, at ±45° and ±135° around the fibre.
     vec3 side = cross(tangent, normal) * (0.707106781f * f.cos_r);
@@ -70,13 +99,9 @@ VELLUS_FN vec3 hair_ambient(VELLUS_IN(HairFibre) fibre, HairSurface s, HairFrame
     vec3 mirrored = -f.sin_r * tangent;
     vec3 front = ambient_blend(mirrored + ahead + side, arriving) +
                  ambient_blend(mirrored + ahead - side, arriving);
-    vec3 left = mirrored - ahead + side;
-    vec3 right = mirrored - ahead - side;
-    vec3 behind = ambient_blend(left, arriving) + ambient_blend(right, arriving);
-    // Only what the hair behind stops can it turn back.
-    vec3 stopped = vec3(1.0f) - 0.5f * (ambient_blend(left, through) + ambient_blend(right, through));
-    vec3 back = dual_backscatter(m.forward, m.backward) * stopped * multiple;
-    return 0.5f * (m.backward * front + m.forward * behind) + back * ambient_blend(normal, arriving);
+    vec3 behind = ambient_blend(mirrored - ahead + side, arriving) +
+                  ambient_blend(mirrored - ahead - side, arriving);
+    return 0.5f * (m.backward * front + m.forward * behind);
 }
 
 #endif

@@ -187,6 +187,23 @@ TEST(CrowdPlayer, OneOfTheNineWalksAndTheOthersKeepTheirOwnTime) {
               0.01);
 }
 
+TEST(CrowdPlayer, WalksUpToSomeoneAndNotThroughThem) {
+    Crowd crowd;
+    const auto way = [&] {
+        const glm::dvec3 to = crowd.place("5_head")[3] - crowd.place("2_head")[3];
+        return glm::dvec3(to.x, 0.0, to.z);
+    };
+    double nearest = glm::length(way());
+    ASSERT_GT(nearest, 1.0);
+    for (int frame = 0; frame < 600; ++frame) {
+        crowd.walk(glm::normalize(way()), 1);
+        nearest = std::min(nearest, glm::length(way()));
+    }
+    // Half a metre between the middles of two bodies whose heads lean less than a hand's breadth.
+    EXPECT_GT(nearest, 0.35);
+    EXPECT_LT(glm::length(way()), 0.65);
+}
+
 TEST(PlayerExtensionTest, RefusesWhatIsNoClipAndNoSpeed) {
     for (const char* json : {R"({})", R"({"walk": 3})", R"({"walk": "w", "speed": 0})", "[", "7"}) {
         EXPECT_FALSE(parse_player_extension(json, "scene.gltf")) << json;
