@@ -12,6 +12,8 @@ namespace {
 
 /// Of no picture: darker than black.
 constexpr double kAllDark = -1.0;
+/// Of no row: asks matching() for all colours of a groom.
+constexpr std::string_view kAnyColour;
 
 FrameFigures figures_of(const AccuracyRow& row) {
     const auto bias = row.measures.find("bias");
@@ -21,20 +23,30 @@ FrameFigures figures_of(const AccuracyRow& row) {
     return figures;
 }
 
-/// Figures of several rows, for their mean.
-struct Mean {
+/// Errors of several rows, for their mean, and times, for their median: one of them may have been
+/// measured while the machine was busy.
+struct Figures {
     FrameFigures sum;
     uint32_t count = 0;
+    std::vector<double> ms;
 
-    void add(const AccuracyRow& row) {
+    void add_errors(const AccuracyRow& row) {
         const FrameFigures figures = figures_of(row);
-        sum.ms += figures.ms;
         sum.bias += figures.bias;
         sum.rest += figures.rest;
         ++count;
     }
-    [[nodiscard]] FrameFigures mean() const {
-        return {sum.ms / count, sum.bias / count, sum.rest / count};
+    void add_time(const AccuracyRow& row) { ms.push_back(row.frame_ms.median); }
+
+    /// For a technique that was timed at one groom and measured at another there is no figure.
+    [[nodiscard]] bool complete() const { return count > 0 && !ms.empty(); }
+    [[nodiscard]] FrameFigures typical() const {
+        std::vector<double> sorted = ms;
+        std::ranges::sort(sorted);
+        const size_t middle = sorted.size() / 2;
+        const double median =
+            sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
+        return {median, sum.bias / count, sum.rest / count};
     }
 };
 
@@ -84,22 +96,26 @@ std::string text(const AxisChoice& choice) {
 
 FrameModel frame_model(const AccuracyTable& table, std::string_view groom,
                        std::string_view colour) {
-    Mean base;
-    std::vector<std::pair<AxisChoice, Mean>> sums;
+    std::vector<std::pair<AxisChoice, Figures>> all;
+    const auto at = [&](const AxisChoice& choice) -> Figures& {
+        auto found = std::ranges::find(all, choice, &std::pair<AxisChoice, Figures>::first);
+        if (found == all.end()) found = all.insert(all.end(), {choice, {}});
+        return found->second;
+    };
     for (const AccuracyRow* row : matching(table, groom, colour)) {
-        const AxisChoice choice = choice_of(*row);
-        if (choice.axis.empty()) {
-            base.add(*row);
-            continue;
-        }
-        auto found = std::ranges::find(sums, choice, &std::pair<AxisChoice, Mean>::first);
-        if (found == sums.end()) found = sums.insert(sums.end(), {choice, {}});
-        found->second.add(*row);
+        at(choice_of(*row)).add_errors(*row);
     }
-    if (base.count == 0) return {};
-    FrameModel model{base.mean(), base_choices(), {}};
-    for (const auto& [choice, sum] : sums) {
-        const FrameFigures changed = sum.mean();
+    // A frame takes as long in any colour.
+    for (const AccuracyRow* row : matching(table, groom, kAnyColour)) {
+        at(choice_of(*row)).add_time(*row);
+    }
+    const auto base = std::ranges::find_if(
+        all, [](const auto& each) { return each.first.axis.empty() && each.second.complete(); });
+    if (base == all.end()) return {};
+    FrameModel model{base->second.typical(), base_choices(), {}};
+    for (const auto& [choice, figures] : all) {
+        if (choice.axis.empty() || !figures.complete()) continue;
+        const FrameFigures changed = figures.typical();
         model.effects.push_back({choice,
                                  {changed.ms - model.base.ms, changed.bias - model.base.bias,
                                   changed.rest - model.base.rest}});
@@ -111,16 +127,24 @@ Combination predict(const FrameModel& model, std::vector<AxisChoice> choices) {
     Combination result{std::move(choices)};
     FrameFigures sum = model.base;
     double least = model.base.rest;
+    double brighter = 0.0;
+    double darker = 0.0;
     for (const AxisChoice& choice : result.choices) {
         const auto found = std::ranges::find(model.effects, choice, &ChoiceEffect::choice);
         if (found == model.effects.end()) continue;
         sum.ms += found->change.ms;
         sum.bias += found->change.bias;
         sum.rest += found->change.rest;
+        brighter += std::max(found->change.bias, 0.0);
+        darker += std::max(-found->change.bias, 0.0);
         least = std::min(least, model.base.rest + found->change.rest);
     }
     // Two choices that each mend the same fault mend it once.
     sum.rest = std::max(sum.rest, least);
+    // What one choice makes too bright and another too dark makes up for each other as a whole, but
+    // not pixel by pixel.
+    const double cancelled = std::min(brighter, darker);
+    sum.rest += cancelled * cancelled;
     sum.bias = std::max(sum.bias, kAllDark);
     result.ms = std::max(sum.ms, 0.0);
     result.error = sum.error();

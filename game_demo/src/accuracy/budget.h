@@ -52,7 +52,8 @@ struct FrameModel {
 };
 
 /// From the rows of kFrameAxis with this groom and colour; where there are none, from those with
-/// this groom, else from all: means over what was measured. Empty where nothing was.
+/// this groom, else from all: means of errors over what was measured. Times are medians over the
+/// groom's colours. Empty where nothing was measured.
 FrameModel frame_model(const AccuracyTable& table, std::string_view groom, std::string_view colour);
 
 /// One choice an axis, and what the model says of them together.

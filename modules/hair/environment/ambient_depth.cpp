@@ -15,7 +15,7 @@ constexpr float kCells = 96.0f;  // along the longest side
 constexpr int kMips = 5;
 constexpr float kOpening = 0.7f;     // a step over the way gone so far
 constexpr float kSkinDepth = 30.0f;  // optical depth of a cell of skin
-constexpr float kMatched = 0.4f;     // share of the optical depth at which means are exact
+constexpr float kMatched = 0.5f;     // share of the optical depth at which means are exact
 constexpr float kCorner = 0.577350269f;
 
 /// Area of strands per volume, 1/metres, as seen along x, y and z.

@@ -7,13 +7,14 @@
 // 2 / Valve Source Shading", GDC 2004).
 //
 // A fibre takes in light from the cone that mirrors the eye's inclination: the half in front of it counts
-// with a_b, the half behind with a_f. White hair under an even sky is as bright as the sky, however deep, and
-// a half space of hair as bright as R∞.
+// with a_b, the half behind with a_f. Streams meet in the nearest hair alone: what lies deeper is mostly
+// skin, from which little comes back. Light from there fades as in deep hair.
 #ifndef VELLUS_HAIR_AMBIENT_GLSL
 #define VELLUS_HAIR_AMBIENT_GLSL
 #include "hair/scattering/dual.glsl"
 
 const float kAmbientScale = 4.0f;
+const float kAmbientBacked = 1.0f;  // optical depth of hair that turns light back: behind it is skin
 const float kAmbientMost = 60.0f;  // optical depth beyond which nothing more is told apart
 
 /// By axis: x, y, z of the groom, and against them.
@@ -55,12 +56,14 @@ struct AmbientStreams {
 };
 
 /// Two streams that lose `lost` = 1 - a_f of themselves by optical depth and gain `back` = a_b of each other;
-/// `k` = √(lost² - back²). Exact for a slab that nothing leaves sideways.
+/// `k` = √(lost² - back²). Exact for a slab that nothing leaves sideways, kAmbientBacked to either side.
 VELLUS_FN AmbientStreams ambient_streams(vec3 lost, vec3 back, vec3 k, float depth_ahead, float depth_behind,
                                          vec3 light_ahead, vec3 light_behind) {
     vec3 falloff = -kLog2E * k;
-    vec3 a = exp2(falloff * depth_ahead);
-    vec3 b = exp2(falloff * depth_behind);
+    light_ahead *= exp2(falloff * max(depth_ahead - kAmbientBacked, 0.0f));
+    light_behind *= exp2(falloff * max(depth_behind - kAmbientBacked, 0.0f));
+    vec3 a = exp2(falloff * min(depth_ahead, kAmbientBacked));
+    vec3 b = exp2(falloff * min(depth_behind, kAmbientBacked));
     vec3 a2 = a * a;
     vec3 b2 = b * b;
     vec3 one = vec3(1.0f);

@@ -68,6 +68,33 @@ TEST(AccuracyBudget, BiasesAddUpWithTheirSign) {
     EXPECT_NEAR(dark.error, std::sqrt(0.95 * 0.95 + 0.0989), 1e-12);
 }
 
+TEST(AccuracyBudget, WhatIsTooBrightDoesNotHideWhatIsTooDark) {
+    AccuracyTable all;
+    all.rows = {frame(kBase, "", 20, 0.1, 0.0), frame("multiple=fake_normal", "", 19, 0.5, 0.4),
+                frame("environment=none", "", 18, 0.4, -0.3)};
+    const FrameModel model = frame_model(all, "curly", "brown");
+    const Combination both =
+        predict(model, {{"multiple", "fake_normal", ""}, {"environment", "none", ""}});
+    // As a whole .1 too bright. Beside that each has its own rest (.09 and .07, of which the base's
+    // .01 counts once), and .3 of light is in the wrong places.
+    EXPECT_NEAR(both.error, std::sqrt(0.1 * 0.1 + 0.09 + 0.07 - 0.01 + 0.3 * 0.3), 1e-12);
+    EXPECT_GT(both.error, predict(model, {{"environment", "none", ""}}).error);
+}
+
+TEST(AccuracyBudget, TimesAreTheMediansOverAGroomsColours) {
+    AccuracyTable all;
+    const char* colours[] = {"black", "brown", "blond"};
+    const double base[] = {20, 90, 22};  // something else ran during one
+    for (int i = 0; i < 3; ++i) {
+        all.rows.push_back(frame(kBase, "", base[i], 0.5, 0.0, "curly", colours[i]));
+        all.rows.push_back(frame("shadow=none", "", 10 + i, 0.6, 0.0, "curly", colours[i]));
+        all.rows.push_back(frame(kBase, "", 1, 0.5, 0.0, "fur", colours[i]));
+    }
+    const FrameModel model = frame_model(all, "curly", "brown");
+    EXPECT_DOUBLE_EQ(model.base.ms, 22);
+    EXPECT_DOUBLE_EQ(predict(model, {{"shadow", "none", ""}}).ms, 11);
+}
+
 TEST(AccuracyBudget, PicksTheLeastErrorThatFits) {
     const FrameModel model = frame_model(table(), "curly", "brown");
     const auto roomy = best_within(model, 100);
