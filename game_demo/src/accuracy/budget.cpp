@@ -23,32 +23,27 @@ FrameFigures figures_of(const AccuracyRow& row) {
     return figures;
 }
 
-/// Errors of several rows, for their mean, and times, for their median: one of them may have been
-/// measured while the machine was busy.
-struct Figures {
-    FrameFigures sum;
+/// Errors of several rows, for their mean.
+struct MeanError {
+    double bias = 0.0;
+    double rest = 0.0;
     uint32_t count = 0;
-    std::vector<double> ms;
 
-    void add_errors(const AccuracyRow& row) {
+    void add(const AccuracyRow& row) {
         const FrameFigures figures = figures_of(row);
-        sum.bias += figures.bias;
-        sum.rest += figures.rest;
+        bias += figures.bias;
+        rest += figures.rest;
         ++count;
     }
-    void add_time(const AccuracyRow& row) { ms.push_back(row.frame_ms.median); }
-
-    /// For a technique that was timed at one groom and measured at another there is no figure.
-    [[nodiscard]] bool complete() const { return count > 0 && !ms.empty(); }
-    [[nodiscard]] FrameFigures typical() const {
-        std::vector<double> sorted = ms;
-        std::ranges::sort(sorted);
-        const size_t middle = sorted.size() / 2;
-        const double median =
-            sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
-        return {median, sum.bias / count, sum.rest / count};
-    }
 };
+
+/// Empty: 0.
+double median(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    std::ranges::sort(values);
+    const size_t middle = values.size() / 2;
+    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
 
 /// "AXIS=TECHNIQUE" of a row of kFrameAxis.
 AxisChoice choice_of(const AccuracyRow& row) {
@@ -71,6 +66,36 @@ std::vector<const AccuracyRow*> matching(const AccuracyTable& table, std::string
         if (!rows.empty()) break;
     }
     return rows;
+}
+
+bool is_base(const AccuracyRow& row) {
+    return row.axis == kFrameAxis && choice_of(row).axis.empty();
+}
+
+/// Of the groom's base in any colour: a frame takes as long in all of them.
+double base_time(const AccuracyTable& table, std::string_view groom) {
+    std::vector<double> ms;
+    for (const AccuracyRow* row : matching(table, groom, kAnyColour)) {
+        if (is_base(*row)) ms.push_back(row->frame_ms.median);
+    }
+    return median(std::move(ms));
+}
+
+/// Time of a frame with this choice over that of the base, in the median of all pictures: a tenth
+/// of noise in every row would make the cheapest sum of a few differences too cheap by far.
+double time_ratio(const AccuracyTable& table, const AxisChoice& choice) {
+    std::vector<double> ratios;
+    for (const AccuracyRow& row : table.rows) {
+        if (row.axis != kFrameAxis || choice_of(row) != choice) continue;
+        const auto base = std::ranges::find_if(table.rows, [&](const AccuracyRow& other) {
+            return is_base(other) && other.groom == row.groom && other.colour == row.colour &&
+                   other.light == row.light && other.device == row.device;
+        });
+        if (base != table.rows.end() && base->frame_ms.median > 0.0) {
+            ratios.push_back(row.frame_ms.median / base->frame_ms.median);
+        }
+    }
+    return ratios.empty() ? 1.0 : median(std::move(ratios));
 }
 
 }  // namespace
@@ -96,26 +121,23 @@ std::string text(const AxisChoice& choice) {
 
 FrameModel frame_model(const AccuracyTable& table, std::string_view groom,
                        std::string_view colour) {
-    std::vector<std::pair<AxisChoice, Figures>> all;
-    const auto at = [&](const AxisChoice& choice) -> Figures& {
-        auto found = std::ranges::find(all, choice, &std::pair<AxisChoice, Figures>::first);
-        if (found == all.end()) found = all.insert(all.end(), {choice, {}});
-        return found->second;
-    };
+    std::vector<std::pair<AxisChoice, MeanError>> errors;
     for (const AccuracyRow* row : matching(table, groom, colour)) {
-        at(choice_of(*row)).add_errors(*row);
+        const AxisChoice choice = choice_of(*row);
+        auto found = std::ranges::find(errors, choice, &std::pair<AxisChoice, MeanError>::first);
+        if (found == errors.end()) found = errors.insert(errors.end(), {choice, {}});
+        found->second.add(*row);
     }
-    // A frame takes as long in any colour.
-    for (const AccuracyRow* row : matching(table, groom, kAnyColour)) {
-        at(choice_of(*row)).add_time(*row);
-    }
-    const auto base = std::ranges::find_if(
-        all, [](const auto& each) { return each.first.axis.empty() && each.second.complete(); });
-    if (base == all.end()) return {};
-    FrameModel model{base->second.typical(), base_choices(), {}};
-    for (const auto& [choice, figures] : all) {
-        if (choice.axis.empty() || !figures.complete()) continue;
-        const FrameFigures changed = figures.typical();
+    const auto base =
+        std::ranges::find_if(errors, [](const auto& each) { return each.first.axis.empty(); });
+    if (base == errors.end()) return {};
+    const auto figures = [](const MeanError& sum, double ms) {
+        return FrameFigures{ms, sum.bias / sum.count, sum.rest / sum.count};
+    };
+    FrameModel model{figures(base->second, base_time(table, groom)), base_choices(), {}};
+    for (const auto& [choice, sum] : errors) {
+        if (choice.axis.empty()) continue;
+        const FrameFigures changed = figures(sum, model.base.ms * time_ratio(table, choice));
         model.effects.push_back({choice,
                                  {changed.ms - model.base.ms, changed.bias - model.base.bias,
                                   changed.rest - model.base.rest}});

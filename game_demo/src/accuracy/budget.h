@@ -51,9 +51,9 @@ struct FrameModel {
     [[nodiscard]] bool empty() const { return base.ms <= 0.0; }
 };
 
-/// From the rows of kFrameAxis with this groom and colour; where there are none, from those with
-/// this groom, else from all: means of errors over what was measured. Times are medians over the
-/// groom's colours. Empty where nothing was measured.
+/// Errors are means of the rows of kFrameAxis with this groom and colour; where there are none, of
+/// those with this groom, else of all. The base's time is the median over the groom's colours, what
+/// a choice does to it the median share over all pictures. Empty where nothing was measured.
 FrameModel frame_model(const AccuracyTable& table, std::string_view groom, std::string_view colour);
 
 /// One choice an axis, and what the model says of them together.

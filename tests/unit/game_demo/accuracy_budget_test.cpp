@@ -81,7 +81,7 @@ TEST(AccuracyBudget, WhatIsTooBrightDoesNotHideWhatIsTooDark) {
     EXPECT_GT(both.error, predict(model, {{"environment", "none", ""}}).error);
 }
 
-TEST(AccuracyBudget, TimesAreTheMediansOverAGroomsColours) {
+TEST(AccuracyBudget, TimesAreMediansOverColoursAndTheirSharesOverAllPictures) {
     AccuracyTable all;
     const char* colours[] = {"black", "brown", "blond"};
     const double base[] = {20, 90, 22};  // something else ran during one
