@@ -12,8 +12,6 @@ namespace {
 
 /// Of no picture: darker than black.
 constexpr double kAllDark = -1.0;
-/// Of no row: asks matching() for all colours of a groom.
-constexpr std::string_view kAnyColour;
 
 FrameFigures figures_of(const AccuracyRow& row) {
     const auto bias = row.measures.find("bias");
@@ -36,14 +34,6 @@ struct MeanError {
         ++count;
     }
 };
-
-/// Empty: 0.
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    std::ranges::sort(values);
-    const size_t middle = values.size() / 2;
-    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
 
 /// "AXIS=TECHNIQUE" of a row of kFrameAxis.
 AxisChoice choice_of(const AccuracyRow& row) {
@@ -69,33 +59,61 @@ std::vector<const AccuracyRow*> matching(const AccuracyTable& table, std::string
 }
 
 bool is_base(const AccuracyRow& row) {
-    return row.axis == kFrameAxis && choice_of(row).axis.empty();
+    return row.axis == kFrameAxis && row.technique == kBase;
 }
 
-/// Of the groom's base in any colour: a frame takes as long in all of them.
+/// Of the groom's base in any colour, for a frame takes as long in all of them; of every groom's
+/// where this one was not measured.
 double base_time(const AccuracyTable& table, std::string_view groom) {
-    std::vector<double> ms;
-    for (const AccuracyRow* row : matching(table, groom, kAnyColour)) {
-        if (is_base(*row)) ms.push_back(row->frame_ms.median);
+    std::vector<double> own;
+    std::vector<double> all;
+    for (const AccuracyRow& row : table.rows) {
+        if (!is_base(row)) continue;
+        all.push_back(row.frame_ms.median);
+        if (row.groom == groom) own.push_back(row.frame_ms.median);
     }
-    return median(std::move(ms));
+    return spread_of(own.empty() ? std::move(all) : std::move(own)).median;
 }
 
-/// Time of a frame with this choice over that of the base, in the median of all pictures: a tenth
-/// of noise in every row would make the cheapest sum of a few differences too cheap by far.
-double time_ratio(const AccuracyTable& table, const AxisChoice& choice) {
+/// Time of the row's frame over that of the base in the same picture; none where that is unknown.
+std::optional<double> time_ratio(const AccuracyTable& table, const AccuracyRow& row) {
+    const auto base = std::ranges::find_if(table.rows, [&](const AccuracyRow& other) {
+        return is_base(other) && other.groom == row.groom && other.colour == row.colour &&
+               other.light == row.light && other.device == row.device;
+    });
+    if (base == table.rows.end() || base->frame_ms.median <= 0.0) return std::nullopt;
+    return row.frame_ms.median / base->frame_ms.median;
+}
+
+/// Rows of one choice: errors in the pictures asked for, times over the base's in all pictures. A
+/// tenth of noise in every row would make the cheapest sum of a few differences too cheap by far.
+struct ChoiceRows {
+    AxisChoice choice;
+    MeanError error;
     std::vector<double> ratios;
-    for (const AccuracyRow& row : table.rows) {
-        if (row.axis != kFrameAxis || choice_of(row) != choice) continue;
-        const auto base = std::ranges::find_if(table.rows, [&](const AccuracyRow& other) {
-            return is_base(other) && other.groom == row.groom && other.colour == row.colour &&
-                   other.light == row.light && other.device == row.device;
-        });
-        if (base != table.rows.end() && base->frame_ms.median > 0.0) {
-            ratios.push_back(row.frame_ms.median / base->frame_ms.median);
-        }
+
+    [[nodiscard]] FrameFigures figures(double base_ms) const {
+        const double ratio = ratios.empty() ? 1.0 : spread_of(ratios).median;
+        return {base_ms * ratio, error.bias / error.count, error.rest / error.count};
     }
-    return ratios.empty() ? 1.0 : median(std::move(ratios));
+};
+
+std::vector<ChoiceRows> rows_by_choice(const AccuracyTable& table, std::string_view groom,
+                                       std::string_view colour) {
+    std::vector<ChoiceRows> choices;
+    for (const AccuracyRow* row : matching(table, groom, colour)) {
+        const AxisChoice choice = choice_of(*row);
+        auto found = std::ranges::find(choices, choice, &ChoiceRows::choice);
+        if (found == choices.end()) found = choices.insert(choices.end(), {choice, {}, {}});
+        found->error.add(*row);
+    }
+    for (const AccuracyRow& row : table.rows) {
+        if (row.axis != kFrameAxis || is_base(row)) continue;
+        const auto found = std::ranges::find(choices, choice_of(row), &ChoiceRows::choice);
+        if (found == choices.end()) continue;
+        if (const auto ratio = time_ratio(table, row)) found->ratios.push_back(*ratio);
+    }
+    return choices;
 }
 
 }  // namespace
@@ -121,24 +139,15 @@ std::string text(const AxisChoice& choice) {
 
 FrameModel frame_model(const AccuracyTable& table, std::string_view groom,
                        std::string_view colour) {
-    std::vector<std::pair<AxisChoice, MeanError>> errors;
-    for (const AccuracyRow* row : matching(table, groom, colour)) {
-        const AxisChoice choice = choice_of(*row);
-        auto found = std::ranges::find(errors, choice, &std::pair<AxisChoice, MeanError>::first);
-        if (found == errors.end()) found = errors.insert(errors.end(), {choice, {}});
-        found->second.add(*row);
-    }
-    const auto base =
-        std::ranges::find_if(errors, [](const auto& each) { return each.first.axis.empty(); });
-    if (base == errors.end()) return {};
-    const auto figures = [](const MeanError& sum, double ms) {
-        return FrameFigures{ms, sum.bias / sum.count, sum.rest / sum.count};
-    };
-    FrameModel model{figures(base->second, base_time(table, groom)), base_choices(), {}};
-    for (const auto& [choice, sum] : errors) {
-        if (choice.axis.empty()) continue;
-        const FrameFigures changed = figures(sum, model.base.ms * time_ratio(table, choice));
-        model.effects.push_back({choice,
+    const std::vector<ChoiceRows> choices = rows_by_choice(table, groom, colour);
+    const auto is_the_base = [](const ChoiceRows& each) { return each.choice.axis.empty(); };
+    const auto base = std::ranges::find_if(choices, is_the_base);
+    if (base == choices.end()) return {};
+    FrameModel model{base->figures(base_time(table, groom)), base_choices(), {}};
+    for (const ChoiceRows& each : choices) {
+        if (is_the_base(each)) continue;
+        const FrameFigures changed = each.figures(model.base.ms);
+        model.effects.push_back({each.choice,
                                  {changed.ms - model.base.ms, changed.bias - model.base.bias,
                                   changed.rest - model.base.rest}});
     }

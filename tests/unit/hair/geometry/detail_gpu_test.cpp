@@ -82,8 +82,7 @@ void expect_same_coverage(gpu::Device& device, const StrandData& strands, float 
 StrandData grown(GrowStyle style) {
     const GrowSurface head = sphere_surface(glm::vec3(0.0f), 0.09f, style == GrowStyle::kFur);
     GrowSettings settings = preset(style);
-    // Enough that twenty times fewer still make a groom, and that the coarsest is not needed near
-    // by.
+    // Few enough that three metres do not yet ask for the coarsest level.
     settings.count = 10'000;
     const auto groom = grow_groom(head, settings, 11);
     EXPECT_TRUE(groom);
