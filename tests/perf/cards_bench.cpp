@@ -24,6 +24,7 @@ struct Options {
     uint32_t size = 384;
     int frames = 16;
     double distance = 1.0;
+    uint32_t finer = 1;
     hair::CardBuildOptions build;
 };
 
@@ -37,6 +38,22 @@ asset::Image beside(const asset::Image& left, const asset::Image& right) {
         }
     }
     return both;
+}
+
+/// Means over blocks of `factor` x `factor` pixels.
+CardPicture reduce(const CardPicture& fine, uint32_t factor) {
+    CardPicture picture{.size = fine.size / factor};
+    picture.color.assign(size_t{picture.size.x} * picture.size.y, glm::vec3(0.0f));
+    picture.coverage.assign(picture.color.size(), 0.0f);
+    const float share = 1.0f / static_cast<float>(factor * factor);
+    for (size_t i = 0; i < fine.color.size(); ++i) {
+        const size_t x = i % fine.size.x / factor;
+        const size_t y = i / fine.size.x / factor;
+        if (x >= picture.size.x || y >= picture.size.y) continue;
+        picture.color[y * picture.size.x + x] += share * fine.color[i];
+        picture.coverage[y * picture.size.x + x] += share * fine.coverage[i];
+    }
+    return picture;
 }
 
 /// Device times of the hair passes of the last frame.
@@ -56,7 +73,7 @@ Result<int> compare_sides(gpu::Device& device, const Options& options) {
     auto built = hair::build_cards(*strands, options.build);
     if (!built) return built.error();
     fmt::print("{}\n", hair::to_text(built->report));
-    auto views = CardViews::create(device, glm::uvec2(options.size));
+    auto views = CardViews::create(device, glm::uvec2(options.size * options.finer));
     if (!views) return views.error();
     World& world = (*views)->world();
     auto strand_groom = hair::add_strands(world, device, "strands", *strands, {});
@@ -82,7 +99,7 @@ Result<int> compare_sides(gpu::Device& device, const Options& options) {
             auto picture = (*views)->draw(outermost, yaw, options.distance, options.frames);
             if (!picture) return picture.error();
             milliseconds[k] = (process_cpu_seconds() - start) * 1e3 / options.frames;
-            pictures[k] = std::move(*picture);
+            pictures[k] = options.finer > 1 ? reduce(*picture, options.finer) : std::move(*picture);
             if (side + 1 == kSides) {
                 print_passes(k == 0 ? "strands" : "cards", (*views)->executor());
             }
@@ -127,6 +144,8 @@ const Registration kCards(
              ->check(CLI::Range(1, 1024));
          app.add_option("--distance", options->distance, "1 fills the picture")
              ->check(CLI::Range(1.0, 100.0));
+         app.add_option("--finer", options->finer, "draws so many times as fine and averages")
+             ->check(CLI::Range(1, 16));
          app.add_option("--cards", options->build.cards, "most cards to build");
          app.add_option("--density", options->build.texels_per_metre, "texels per metre across");
          app.add_option("--along", options->build.along_ratio, "texels along for each across");
