@@ -74,7 +74,7 @@ void add_level(glm::uvec2 below, glm::uvec2 size, size_t first, AtlasLevels& lev
                 levels.shape[texel] = mean_opacity(levels.shape, block, at) |
                                       mean_byte(levels.shape, block, 1) << 8U |
                                       (levels.shape[block.texels[block.strongest]] & 0xffff0000U);
-                levels.strand[texel] = mean_bytes(levels.strand, block, 4);
+                levels.strand[texel] = levels.strand[block.texels[block.strongest]];
                 if (!levels.color.empty()) {
                     levels.color[texel] = mean_bytes(levels.color, block, 3);
                 }

@@ -22,8 +22,9 @@ struct AtlasLevels {
 glm::uvec2 level_size(const CardAtlas& atlas, uint32_t level);
 
 /// Prefilters for distance: the opacity of a texel is the mean of the four below it, so that a card
-/// keeps its coverage at any distance; what belongs to the hair is their mean weighted by opacity;
-/// the strand is the most opaque one's.
+/// keeps its coverage at any distance; depth and colour are their means weighted by opacity;
+/// strand, tangent and parameter are the most opaque one's, for the mean of hair that crosses leads
+/// nowhere.
 AtlasLevels make_levels(const CardAtlas& atlas);
 
 }  // namespace vellus::hair

@@ -191,7 +191,8 @@ CardAtlas Baker::resolve() const {
             count += 1.0f;
             toward += sample.toward;
             parameter += piece.parameter;
-            tangent += piece.tangent;
+            // A strand lies along its tangent and against it: opposite ones are alike.
+            tangent += glm::dot(tangent, piece.tangent) < 0.0f ? -piece.tangent : piece.tangent;
             color += piece.color;
             if (sample.toward > front.toward) front = sample;
         }
@@ -200,8 +201,9 @@ CardAtlas Baker::resolve() const {
         atlas.opacity[texel] = static_cast<uint8_t>(std::lround(255.0f * share));
         atlas.depth[texel] = encode_signed(toward / count);
         atlas.parameter[texel] = static_cast<uint8_t>(std::lround(255.0f * parameter / count));
-        const float length = glm::length(tangent);
-        if (length < 0.1f) tangent = pieces_[front.piece].tangent;
+        const glm::vec3 nearest = pieces_[front.piece].tangent;
+        if (glm::length(tangent) < 0.1f) tangent = nearest;
+        if (glm::dot(tangent, nearest) < 0.0f) tangent = -tangent;
         tangent = glm::normalize(tangent);
         atlas.tangent[texel] = {encode_signed(tangent.x), encode_signed(tangent.y),
                                 encode_signed(tangent.z)};

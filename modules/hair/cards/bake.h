@@ -16,7 +16,8 @@ struct BakeSettings {
 
 /// The texels of one card: its strands as lines of their width, projected along the ribbon's
 /// `toward` axis onto its middle, seen from its front. Opacity is the share of samples that a
-/// strand covers; the other columns are means over what the samples see. Texels without hair
+/// strand covers; the other columns are means over what the samples see; tangents that oppose
+/// each other count as one direction. Texels without hair
 /// continue their neighbours, so that filters find no seam.
 CardAtlas bake_card(const StrandData& strands, std::span<const uint32_t> members,
                     const Ribbon& ribbon, const BakeSettings& settings);

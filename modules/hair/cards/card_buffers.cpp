@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "modules/hair/cards/atlas_levels.h"
+#include "modules/hair/cards/row_directions.h"
 
 namespace vellus::hair {
 
@@ -16,6 +17,7 @@ struct CardSet {
     VkDeviceAddress triangles;
     VkDeviceAddress parameters;
     VkDeviceAddress frames;
+    VkDeviceAddress directions;
     VkDeviceAddress shape;
     VkDeviceAddress strand;
     VkDeviceAddress color;
@@ -25,7 +27,7 @@ struct CardSet {
     uint32_t point_count;
     uint32_t triangle_count;
 };
-static_assert(sizeof(CardSet) == 80);
+static_assert(sizeof(CardSet) == 88);
 
 template <class T>
 Result<void> upload_column(gpu::Device& device, const std::vector<T>& column, const char* name,
@@ -57,6 +59,7 @@ Result<CardBuffers> CardBuffers::upload(gpu::Device& device, const CardGroom& ca
         upload_column(device, cards.uvs, "card uvs", buffers.uvs),
         upload_column(device, name_cards(cards), "card triangles", buffers.triangles),
         upload_column(device, cards.frames, "card frames", buffers.frames),
+        upload_column(device, row_directions(cards), "card row directions", buffers.directions),
         upload_column(device, levels.shape, "card shapes", buffers.shape),
         upload_column(device, levels.strand, "card strands", buffers.strand),
         upload_column(device, levels.color, "card colours", buffers.color),
@@ -75,6 +78,7 @@ Result<CardBuffers> CardBuffers::upload(gpu::Device& device, const CardGroom& ca
         .triangles = buffers.triangles.address(),
         .parameters = parameters.address(),
         .frames = buffers.frames.address(),
+        .directions = buffers.directions.address(),
         .shape = buffers.shape.address(),
         .strand = buffers.strand.address(),
         .color = buffers.color.address(),
@@ -92,7 +96,8 @@ Result<CardBuffers> CardBuffers::upload(gpu::Device& device, const CardGroom& ca
 
 uint64_t CardBuffers::bytes() const {
     uint64_t sum = 0;
-    for (const gpu::Buffer* buffer : {&uvs, &triangles, &frames, &shape, &strand, &color, &set}) {
+    for (const gpu::Buffer* buffer :
+         {&uvs, &triangles, &frames, &directions, &shape, &strand, &color, &set}) {
         sum += buffer->bytes();
     }
     return sum;

@@ -12,6 +12,7 @@ struct CardBuffers {
     gpu::Buffer uvs;
     gpu::Buffer triangles;
     gpu::Buffer frames;
+    gpu::Buffer directions;  ///< RowDirections of ribbons
     gpu::Buffer shape;
     gpu::Buffer strand;
     gpu::Buffer color;

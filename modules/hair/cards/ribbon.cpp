@@ -16,6 +16,11 @@ constexpr uint32_t kSamples = 96;
 constexpr uint32_t kDense = 64;
 /// Intervals are at most this share of the ribbon, so that its width can taper.
 constexpr uint32_t kLongestInterval = kDense / 8;
+/// Radians of turns too tight for the cluster from which on its strands wind: a whole turn.
+constexpr float kWinding = 6.2831853f;
+/// Straightening measures the strands anew after so many passes, so many times at most.
+constexpr int kStraightenPasses = 8;
+constexpr int kStraightenRounds = 32;
 /// Half axes are at least this long, in metres, so that every ribbon has an area.
 constexpr float kLeastHalfAxis = 2e-5f;
 
@@ -39,6 +44,50 @@ std::vector<glm::vec3> mean_centerline(const StrandData& strands,
         line[i] = glm::vec3(sum / static_cast<double>(members.size()));
     }
     return line;
+}
+
+/// How far strands lie from the line, across it, at each of its points: twice the root mean square.
+std::vector<float> measure_radius(const StrandData& strands, std::span<const uint32_t> members,
+                                  const std::vector<glm::vec3>& line) {
+    std::vector<float> radius(kDense);
+    for (uint32_t i = 0; i < kDense; ++i) {
+        const float fraction = static_cast<float>(i) / (kDense - 1);
+        const glm::vec3 chord = line[std::min(i + 1, kDense - 1)] - line[i > 0 ? i - 1 : 0];
+        const float squared = std::max(glm::dot(chord, chord), 1e-20f);
+        double sum = 0.0;
+        for (const uint32_t strand : members) {
+            glm::vec3 offset = strand_position(strands, strand, fraction) - line[i];
+            offset -= chord * (glm::dot(offset, chord) / squared);
+            sum += glm::dot(offset, offset);
+        }
+        radius[i] = 2.0f * std::sqrt(static_cast<float>(sum / static_cast<double>(members.size())));
+    }
+    return radius;
+}
+
+/// Whether the strands wind about a common axis, so that their mean does too and its cross-sections
+/// meet within them.
+bool winds(const StrandData& strands, std::span<const uint32_t> members,
+           const std::vector<glm::vec3>& line) {
+    return detail::crowded_turn(line, measure_radius(strands, members, line)) > kWinding;
+}
+
+/// Turns the mean of strands that wind into their axis, the only line that can carry them.
+void straighten(const StrandData& strands, std::span<const uint32_t> members,
+                std::vector<glm::vec3>& line) {
+    for (int round = 0; round < kStraightenRounds; ++round) {
+        const std::vector<float> radius = measure_radius(strands, members, line);
+        if (!detail::straighten(line, radius, kStraightenPasses)) return;
+    }
+}
+
+/// Rows moved to the middle of what they hold follow the turns again, a little.
+void straighten(const StrandData& strands, std::span<const uint32_t> members, Ribbon& ribbon) {
+    std::vector<glm::vec3> line;
+    for (const RibbonRow& row : ribbon.rows) line.push_back(row.center);
+    straighten(strands, members, line);
+    for (size_t i = 0; i < line.size(); ++i) ribbon.rows[i].center = line[i];
+    detail::update_along(ribbon);
 }
 
 /// Moves the ends outwards so that the cross-sections there lie beyond all roots and tips.
@@ -155,12 +204,15 @@ Ribbon fit_ribbon(const StrandData& strands, std::span<const uint32_t> members,
                   const RibbonLimits& limits) {
     std::vector<glm::vec3> line = mean_centerline(strands, members);
     detail::smooth(line, 2);
+    const bool winding = winds(strands, members, line);
+    if (winding) straighten(strands, members, line);
     reach_ends(strands, members, line);
     Ribbon dense = detail::transport_frames(line);
     Spread spread = measure_spread(strands, members, dense, limits.tip_scale);
     detail::turn_to_principal_axis(spread.points, dense);
     spread = measure_spread(strands, members, dense, limits.tip_scale);
     detail::move_to_middle(spread.points, dense);
+    if (winding) straighten(strands, members, dense);
 
     float tolerance = limits.tolerance;
     std::vector<uint32_t> kept = detail::rows_to_keep(dense, tolerance, kLongestInterval);

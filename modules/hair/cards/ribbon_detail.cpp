@@ -51,6 +51,26 @@ void smooth_all(std::vector<T>& values, int passes) {
     }
 }
 
+/// Cross-sections may come together to this share of their distance on the line.
+constexpr float kNearestSections = 0.3f;
+
+std::vector<glm::vec3> directions(const std::vector<glm::vec3>& line) {
+    std::vector<glm::vec3> along(line.size());
+    for (size_t i = 0; i < line.size(); ++i) {
+        const glm::vec3 d = line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0];
+        along[i] = d / std::max(glm::length(d), 1e-12f);
+    }
+    return along;
+}
+
+/// Whether the cross-section of point i comes too near the next one's within the radius.
+bool crowded(const std::vector<glm::vec3>& line, const std::vector<glm::vec3>& along,
+             std::span<const float> radius, size_t i) {
+    const float turn = glm::length(along[i + 1] - along[i]);
+    const float step = glm::distance(line[i + 1], line[i]);
+    return std::max(radius[i], radius[i + 1]) * turn > (1.0f - kNearestSections) * step;
+}
+
 void turn(RibbonRow& row, double angle) {
     const auto c = static_cast<float>(std::cos(angle));
     const auto s = static_cast<float>(std::sin(angle));
@@ -101,6 +121,37 @@ void smooth(std::vector<glm::vec3>& line, int passes) {
         line.front() = first;
         line.back() = last;
     }
+}
+
+float crowded_turn(const std::vector<glm::vec3>& line, std::span<const float> radius) {
+    const std::vector<glm::vec3> along = directions(line);
+    float sum = 0.0f;
+    for (size_t i = 0; i + 1 < line.size(); ++i) {
+        if (!crowded(line, along, radius, i)) continue;
+        sum += std::acos(std::clamp(glm::dot(along[i], along[i + 1]), -1.0f, 1.0f));
+    }
+    return sum;
+}
+
+bool straighten(std::vector<glm::vec3>& line, std::span<const float> radius, int passes) {
+    constexpr size_t kAround = 2;
+    std::vector<glm::vec3> smoothed;
+    for (int pass = 0; pass < passes; ++pass) {
+        const std::vector<glm::vec3> along = directions(line);
+        std::vector<uint8_t> chosen(line.size(), 0);
+        for (size_t i = 0; i + 1 < line.size(); ++i) {
+            if (!crowded(line, along, radius, i)) continue;
+            const size_t end = std::min(i + kAround + 2, line.size());
+            for (size_t k = i - std::min(i, kAround); k < end; ++k) chosen[k] = 1;
+        }
+        if (std::ranges::find(chosen, 1) == chosen.end()) return pass > 0;
+        smoothed = line;
+        smooth_all(smoothed, 1);
+        for (size_t i = 0; i < line.size(); ++i) {
+            if (chosen[i] != 0) line[i] = smoothed[i];
+        }
+    }
+    return true;
 }
 
 void update_along(Ribbon& ribbon) {

@@ -13,6 +13,14 @@ glm::vec3 any_perpendicular(glm::vec3 axis);
 /// `passes` of the binomial filter 1 2 1; the ends stay.
 void smooth(std::vector<glm::vec3>& line, int passes);
 
+/// Radians that the line turns where a point's cross-section meets its neighbour's within `radius`
+/// of the line (one per point).
+float crowded_turn(const std::vector<glm::vec3>& line, std::span<const float> radius);
+
+/// Up to `passes` of that filter, ends too, where a point's cross-section meets its neighbour's
+/// within `radius` of the line (one per point); false where none does.
+bool straighten(std::vector<glm::vec3>& line, std::span<const float> radius, int passes);
+
 /// Distances and directions from the rows' centres: central differences, as the shader takes them.
 void update_along(Ribbon& ribbon);
 

@@ -30,6 +30,7 @@ struct CardSet {
     Uvec4s triangles;  // three points and the card
     Uints parameters;
     Uvec4s frames;
+    Vec3s directions;  // of each row of a ribbon: squares and products of its strands' unit tangents
     Uints shape;   // per texel: opacity, depth, strand (16 bits)
     Uints strand;  // per texel: tangent, parameter
     Uints color;   // per texel: sRGB

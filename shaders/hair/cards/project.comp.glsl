@@ -21,6 +21,7 @@ layout(push_constant, scalar) uniform Push {
 
 CardSet set;
 
+const float kMostDensity = 16.0;
 const float kLeastHalfWidth = 0.5;  // pixels: nothing falls between the samples
 
 vec3 direction_to_eye(vec3 p) { return normalize(eye.xyz - eye.w * p); }
@@ -61,6 +62,21 @@ vec3 unit_or(vec3 v, vec3 other) {
     return squared > 1.0e-20 ? v * inversesqrt(squared) : other;
 }
 
+/// Squared share of their length that a row's strands show along a direction of its frame.
+float seen_squared(uint row, vec3 d) {
+    vec3 squares = set.directions.at[2u * row], products = set.directions.at[2u * row + 1u];
+    float hidden = dot(squares, d * d) + 2.0 * dot(products, d * d.yzx);
+    return clamp(1.0 - hidden, 1.0e-4, 1.0);
+}
+
+/// How many times closer than in the atlas, which faces the card, the strands stand as the eye sees them:
+/// they show more or less of their length, and the tube's axis is foreshortened and `a / h` times as wide.
+float strand_density(uint row, vec3 to_eye, vec3 x, vec3 n, vec3 along, float wider) {
+    vec3 d = vec3(dot(to_eye, x), dot(to_eye, cross(n, x)), dot(to_eye, n));
+    float seen = sqrt(seen_squared(row, d) / seen_squared(row, vec3(0.0, 0.0, 1.0)));
+    return min(wider * seen / max(length(cross(along, to_eye)), 1.0e-3), kMostDensity);
+}
+
 void ribbon_row(uint row) {
     uint first = 3u * row;
     float parameter = point_parameter(set.parameters, first);
@@ -81,14 +97,18 @@ void ribbon_row(uint row) {
     vec3 drawn = (a * a * sx * x + b * b * sn * n) * inverse_h;
     vec3 toward = (a * b * inverse_h) * (sx * n - sn * x);
 
+    // Strands that lead more across the axis than along it wind about it: they look alike from all sides.
+    float winding = saturate(3.0 - 5.0 * set.directions.at[2u * row].y);
+    vec3 turned = mix(x, drawn / max(a, 1.0e-12), winding);
+
     vec4 middle = to_screen(center), edge = to_screen(center + drawn);
     float pixels = distance(middle.xy, edge.xy);
     float widen = min(middle.w, edge.w) > 0.0 ? max(1.0, kLeastHalfWidth / max(pixels, 1.0e-6)) : 1.0;
     drawn *= widen;
     float alpha = 1.0 / widen;
-    float density = a * inverse_h;
-    write_vertex(first, center - drawn, to_eye, toward, along, x, alpha, density);
-    write_vertex(first + 1u, center + drawn, to_eye, toward, along, x, alpha, density);
+    float density = strand_density(row, to_eye, x, n, along, a * inverse_h);
+    write_vertex(first, center - drawn, to_eye, toward, along, turned, alpha, density);
+    write_vertex(first + 1u, center + drawn, to_eye, toward, along, turned, alpha, density);
 }
 
 void mesh_vertex(uint i) {

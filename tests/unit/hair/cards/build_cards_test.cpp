@@ -11,6 +11,7 @@
 #include "modules/hair/cards/bake.h"
 #include "modules/hair/cards/cluster.h"
 #include "modules/hair/cards/pack.h"
+#include "modules/hair/cards/row_directions.h"
 #include "modules/hair/cards/strand_path.h"
 #include "tests/unit/hair/cards/card_strands.h"
 
@@ -185,6 +186,72 @@ double card_area(const CardGroom& cards) {
     return area;
 }
 
+constexpr float kCoilRadius = 0.004f;
+constexpr float kCoilTurn = 40.0f;
+constexpr float kCoilLength = 0.1f;
+
+/// A lock whose strands wind together, as coily hair does.
+Groom coil_lock() {
+    Groom groom;
+    add_lock(groom,
+             {.length = kCoilLength,
+              .radius = 0.002f,
+              .flatness = 1.0f,
+              .curl = kCoilRadius,
+              .turn = kCoilTurn,
+              .phases = 0.3f,
+              .points = 160},
+             40, 5);
+    return groom;
+}
+
+TEST(CardRibbonTest, RunsAlongTheAxisOfStrandsThatWindTogether) {
+    const StrandData strands = strands_of(coil_lock(), kWidth);
+    const Ribbon ribbon = fit_ribbon(strands, all_of(strands), {});
+    // Along their mean it would be nearly twice as long, and turn with them.
+    EXPECT_NEAR(ribbon.length(), kCoilLength, 0.15f * kCoilLength);
+    for (const RibbonRow& row : ribbon.rows) {
+        // Their mean climbs by 0.53 of its length; at the ends the axis lies half a turn aside.
+        EXPECT_LT(row.along.y, -0.8f) << row.distance;
+        // Strands lie up to a coil's radius and the lock's own from the axis.
+        EXPECT_LT(row.half_width, 2.0f * (kCoilRadius + 0.002f)) << row.distance;
+    }
+}
+
+TEST(CardBakeTest, CoilsKeepTheirArea) {
+    const StrandData strands = strands_of(coil_lock(), kWidth);
+    auto built = build_cards(strands, {.cards = 1, .along_ratio = 1.0f, .tip_scale = 1.0f});
+    ASSERT_TRUE(built);
+    // Coils look alike from all sides but for where the turns of 40 strands happen to overlap.
+    const double expected = brute_force_area(strands, 1.0f);
+    EXPECT_NEAR(card_area(built->cards), expected, 0.1 * expected);
+}
+
+TEST(CardRowsTest, DirectionsAreThoseOfTheStrands) {
+    Groom straight;
+    add_lock(straight, {}, 30, 2);
+    for (const bool coils : {false, true}) {
+        const StrandData strands = strands_of(coils ? coil_lock() : straight, kWidth);
+        auto built = build_cards(strands, {.cards = 1, .along_ratio = 1.0f, .tip_scale = 1.0f});
+        ASSERT_TRUE(built);
+        const std::vector<RowDirections> rows = row_directions(built->cards);
+        ASSERT_EQ(3 * rows.size(), built->cards.points.size());
+        // A helix climbs by 1 / √(1 + (r turn / length)²) of its length.
+        const float rise = coils ? kCoilRadius * kCoilTurn / kCoilLength : 0.0f;
+        const float along = 1.0f / (1.0f + rise * rise);
+        // A row sees a part of a turn, all of them together whole ones.
+        float mean = 0.0f;
+        for (const RowDirections& row : rows) {
+            const float sum = row.squares.x + row.squares.y + row.squares.z;
+            EXPECT_NEAR(sum, 1.0f, 1e-4f);
+            EXPECT_NEAR(row.seen_along({0, 1, 0}), std::sqrt(1.0f - row.squares.y), 1e-4f);
+            EXPECT_GT(row.seen_along({0, 0, 1}), coils ? 0.6f : 0.99f);
+            mean += row.squares.y / static_cast<float>(rows.size());
+        }
+        EXPECT_NEAR(mean, along, coils ? 0.1f : 0.01f);
+    }
+}
+
 TEST(CardBakeTest, OpacityAddsUpToTheAreaOfTheStrands) {
     // Flat locks in the XY plane, so that the plane of the card is that of the brute force; those
     // that fan out are the ones a mean centreline with a mean width would shrink.
@@ -316,6 +383,18 @@ TEST(CardAtlasTest, EveryLevelKeepsTheMeanOpacity) {
     }
     EXPECT_EQ(first, levels.shape.size());
     EXPECT_GT(mean0, 10.0);
+}
+
+TEST(CardAtlasTest, HairThatCrossesKeepsItsDirections) {
+    CardAtlas atlas{.width = 2, .height = 2};
+    atlas.opacity = {100, 200, 100, 0};
+    atlas.depth = {128, 128, 128, 128};
+    // Across, back, and across again: their mean would lead along the card.
+    const glm::u8vec3 there(251, 156, 128);
+    const glm::u8vec3 back(5, 156, 128);
+    atlas.tangent = {there, back, there, there};
+    const AtlasLevels levels = make_levels(atlas);
+    EXPECT_EQ(levels.strand[4] & 0xffffffU, 5U | 156U << 8U | 128U << 16U);
 }
 
 TEST(CardPackTest, RectanglesNeitherOverlapNorLeaveTheAtlas) {

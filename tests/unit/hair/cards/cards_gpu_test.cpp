@@ -188,6 +188,43 @@ TEST_F(CardsTest, ARibbonIsAsWideAsItsTubeFromEverySide) {
     }
 }
 
+TEST_F(CardsTest, StrandsStandCloserWhereARibbonIsForeshortened) {
+    // The ribbon leans towards the eye until it shows half its length. Strands along it show half
+    // of theirs too; strands across it show all of theirs, twice as close: 1 - (1 - ½)² of it is
+    // covered.
+    struct Case {
+        glm::u8vec3 tangent;
+        double cover;
+    };
+    for (const Case& c : {Case{{128, 255, 128}, 128.0 / 255.0}, Case{{255, 128, 128}, 0.752}}) {
+        CardGroom cards = ribbon({20, 0, 0}, {0, 0, 20});
+        for (size_t i = 0; i < cards.points.size(); ++i) {
+            glm::vec3& p = cards.points[i];
+            const glm::vec3 from(p.x, p.y, p.z + kDistance);
+            p = {from.x, 0.5f * from.y + std::sqrt(0.75f) * from.z,
+                 0.5f * from.z - std::sqrt(0.75f) * from.y - kDistance};
+        }
+        std::ranges::fill(cards.atlas.opacity, uint8_t{128});
+        std::ranges::fill(cards.atlas.tangent, c.tangent);
+        HairScene scene(device(), kSize, kSize);
+        scene.add_sun({0, 0, 1});
+        add(scene, device(), cards, colored(glm::vec3(0.8f)));
+        scene.build();
+        constexpr int kFrames = 64;
+        double covered = 0.0;
+        for (int frame = 0; frame < kFrames; ++frame) {
+            const auto pixels = scene.draw();
+            // Around the middle, where no perspective tells.
+            for (uint32_t y = 60; y < 68; ++y) {
+                for (uint32_t x = 54; x < 74; ++x) {
+                    covered += pixels[y * kSize + x].g > 0.0f ? 1.0 / (160.0 * kFrames) : 0.0;
+                }
+            }
+        }
+        EXPECT_NEAR(covered, c.cover, 0.03);
+    }
+}
+
 TEST_F(CardsTest, AThinRibbonKeepsItsCoverage) {
     HairScene scene(device(), kSize, kSize);
     scene.add_sun({0, 0, 1});
