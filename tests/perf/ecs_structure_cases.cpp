@@ -245,8 +245,8 @@ EcsCase random_get(size_t count) {
 std::vector<EcsCaseMaker> structure_cases(bool quick) {
     const size_t count = quick ? 50'000 : 1'000'000;
     std::vector<EcsCaseMaker> makers{
-        // NOLINTNEXTLINE(clang-analyzer-cplusplus.NewDeleteLeaks): clang 14 loses std::function's
-        // heap
+        // clang 14 loses std::function's heap.
+        // NOLINTNEXTLINE(clang-analyzer-cplusplus.NewDeleteLeaks)
         {"create 2 components", [=] { return creation(count); }},
         {"create 2 components in bulk", [=] { return bulk_creation(count); }}};
     for (const bool shuffled : {false, true}) {

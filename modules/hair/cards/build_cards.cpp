@@ -201,6 +201,7 @@ Result<CardBuild> build_cards(const StrandData& strands, const CardBuildOptions&
     const double fitted = wall_seconds();
     const double density = choose_density(ribbons, strands, options);
     std::vector<glm::uvec2> sizes;
+    sizes.reserve(ribbons.size());
     for (const Ribbon& ribbon : ribbons) {
         sizes.push_back(card_size(ribbon, density, options.along_ratio));
     }

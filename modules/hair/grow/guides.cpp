@@ -112,7 +112,8 @@ Line trace_free(const Ground& ground, const Root& root, uint32_t key, const Comb
     dvec3 direction = start;
     dvec3 p = root.position;
     Line line{p};
-    for (double s = 0.0; s < length; s += step) {
+    double s = 0.0;
+    while (s < length) {
         const double stride = std::min(step, length - s + 1e-9 * length);
         const dvec3 pull =
             hanging ? hanging_pull(ground, combed, (root.position - ground.head.center) / radius,
@@ -129,6 +130,7 @@ Line trace_free(const Ground& ground, const Root& root, uint32_t key, const Comb
         direction = unit(next - p, direction);
         p += direction * stride;
         line.push_back(p);
+        s += step;
     }
     return line;
 }

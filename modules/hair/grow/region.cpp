@@ -12,7 +12,6 @@ namespace vellus::hair {
 
 namespace {
 
-using asset::kNone;
 using asset::Primitive;
 using asset::SceneAsset;
 

@@ -84,7 +84,8 @@ double haired_area(const GrowSurface& surface, size_t triangle) {
     for (int row = 0; row < kMaskRows; ++row) {
         for (int i = 0; i < 2 * row + 1; ++i) {
             const double up = (row + (i % 2 == 0 ? 2.0 : 1.0) / 3.0) / kMaskRows;
-            const double along = (i / 2 + (i % 2 == 0 ? 1.0 : 2.0) / 3.0) / kMaskRows;
+            const int pair = i / 2;
+            const double along = (pair + (i % 2 == 0 ? 1.0 : 2.0) / 3.0) / kMaskRows;
             sum += density_at(surface, triangle, up - along, along);
         }
     }
