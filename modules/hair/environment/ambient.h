@@ -5,6 +5,6 @@
 /// The shader's own functions, compiled as C++ in float.
 namespace vellus::hair::glsl {
 using namespace vellus::glsl;  // NOLINT(google-build-using-namespace)
-#include "hair/scattering/scattering.glsl"
 #include "hair/environment/ambient.glsl"
+#include "hair/scattering/scattering.glsl"
 }  // namespace vellus::hair::glsl

@@ -7,11 +7,11 @@ namespace vellus::hair {
 
 struct CardGroom;
 
-/// What of a groom stops light, in pieces that are small beside it: where, and how large each is
-/// seen along x, y and z, in square metres.
+/// Strands of a groom in pieces that are small beside it: where they are and where they point, as
+/// long as their area (length times width, square metres).
 struct AmbientPieces {
     std::vector<glm::vec3> at;
-    std::vector<glm::vec3> area;
+    std::vector<glm::vec3> strands;
 };
 
 /// The strands that cards show: pieces of triangles, whose strands lie anywhere in them and

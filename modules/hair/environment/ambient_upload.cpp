@@ -10,12 +10,12 @@ namespace vellus::hair {
 
 namespace {
 
-Result<void> upload(gpu::Device& device, LibraryGroom& groom) {
-    const float width = groom.width > 0.0f ? groom.width : kNominalWidth;
+Result<void> upload(gpu::Device& device, float tip_scale, LibraryGroom& groom) {
+    const StrandTaper taper{groom.width > 0.0f ? groom.width : kNominalWidth, tip_scale};
     const auto depths =
         groom.card_source
             ? ambient_depths(groom.positions, groom.strand_begin, card_pieces(*groom.card_source))
-            : ambient_depths(groom.positions, groom.strand_begin, width);
+            : ambient_depths(groom.positions, groom.strand_begin, taper);
     const auto packed = pack_ambient_depths(depths);
     auto buffer = gpu::Buffer::upload_span(device, std::span(packed), "hair ambient depths");
     if (!buffer) return buffer.error();
@@ -36,7 +36,7 @@ void upload_ambient_depths(Res<HairLibrary> library, Res<HairFrame> hair,
             library->grooms,
             [&](const LibraryGroom& candidate) { return &candidate.strands == draw.strands; });
         if (groom->strands.ambient.bytes() == 0) {
-            if (auto done = upload(*frame->device, *groom); !done) {
+            if (auto done = upload(*frame->device, draw.tip_scale, *groom); !done) {
                 return frame->fail(done.error());
             }
         }

@@ -79,24 +79,24 @@ Facet facet_of(const CardGroom& cards, const glm::uvec3& triangle, float piece) 
             std::max(longest, glm::distance(facet.points[i], cards.points[triangle[(k + 1) % 3]]));
     }
     const float length = glm::length(facet.along);
-    facet.along = length > 0.0f ? facet.along / length : glm::vec3(0.0f);
+    if (length <= 0.0f) facet.along = facet.points[1] - facet.points[0];
+    facet.along = facet.along / std::max(glm::length(facet.along), 1e-30f);
     facet.parts = std::clamp(static_cast<int>(std::ceil(longest / piece)), 1, kMostParts);
     return facet;
 }
 
-void add_facet(const CardAtlas& atlas, const Facet& facet, glm::vec3* at, glm::vec3* area) {
+void add_facet(const CardAtlas& atlas, const Facet& facet, glm::vec3* at, glm::vec3* strands) {
     const glm::vec3 normal =
         glm::cross(facet.points[1] - facet.points[0], facet.points[2] - facet.points[0]);
     const float each = 0.5f * glm::length(normal) / static_cast<float>(facet.parts * facet.parts);
-    const glm::vec3 seen = glm::sqrt(glm::max(1.0f - facet.along * facet.along, 0.0f));
-    glm::vec3* const begin = area;
+    glm::vec3* const begin = strands;
     float mean = 0.0f;
     for (int i = 0; i < facet.parts; ++i) {
         for (int j = 0; j < 2 * (facet.parts - i) - 1; ++j) {
             const float c = cover(atlas, facet, i, j);
             mean += c / static_cast<float>(facet.parts * facet.parts);
             *at++ = blend(facet.points, facet.weights(i, j, glm::vec2(1.0f / 3.0f)));
-            *area++ = seen * (c * each);
+            *strands++ = facet.along * (c * each);
         }
     }
     if (mean <= 0.0f) return;
@@ -104,7 +104,7 @@ void add_facet(const CardAtlas& atlas, const Facet& facet, glm::vec3* at, glm::v
     // see too few strands to tell x from what they cover.
     const float c = std::min(mean, kMostCover);
     const float more = -std::log(1.0f - c) / c;
-    std::for_each(begin, area, [&](glm::vec3& part) { part *= more; });
+    std::for_each(begin, strands, [&](glm::vec3& part) { part *= more; });
 }
 
 }  // namespace
@@ -121,10 +121,10 @@ AmbientPieces card_pieces(const CardGroom& cards) {
     }
     AmbientPieces pieces;
     pieces.at.resize(begin.back());
-    pieces.area.resize(begin.back());
+    pieces.strands.resize(begin.back());
     parallel_ranges(facets.size(), 64, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) {
-            add_facet(cards.atlas, facets[i], &pieces.at[begin[i]], &pieces.area[begin[i]]);
+            add_facet(cards.atlas, facets[i], &pieces.at[begin[i]], &pieces.strands[begin[i]]);
         }
     });
     return pieces;

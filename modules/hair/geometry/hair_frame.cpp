@@ -162,7 +162,7 @@ void describe_ambient(const LibraryGroom& groom, const glm::dmat4& world, const 
     const float nominal = groom.width > 0.0f ? groom.width : kNominalWidth;
     const float drawn =
         width.root > 0.0f ? width.root / static_cast<float>(std::max(scale, 1e-12)) : nominal;
-    instance.ambient_scale = alpha * drawn / nominal * (0.5f + 0.5f * width.tip_scale);
+    instance.ambient_scale = alpha * drawn / nominal;
 }
 
 HairInstance describe_instance(const LibraryGroom& groom, const HairMaterial& material,

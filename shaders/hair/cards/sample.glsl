@@ -36,15 +36,19 @@ HairSample card_sample(HairInstance hair, CardSet set, CardVertices vertices, ui
     result.parameter = (set.flags & kCardsParameters) != 0u ? float(strand >> 24) * (1.0 / 255.0)
                                                             : parameter;
     result.along = 0.0;
-    result.ambient = AmbientDepths(vec3(0.0), vec3(0.0));
+    result.ambient = AmbientDepths(vec3(0.0), vec3(0.0), vec3(1.0), vec3(1.0));
     if (uint64_t(hair.ambient) != 0ul) {
-        vec3 along_bytes = vec3(0.0), against_bytes = vec3(0.0);
+        vec3 along_steps = vec3(0.0), against_steps = vec3(0.0);
+        vec3 along_open = vec3(0.0), against_open = vec3(0.0);
         for (int i = 0; i < 3; ++i) {
             uvec2 words = hair.ambient.at[triangle.points[i]];
-            along_bytes += weights[i] * hair_ambient_bytes(words.x);
-            against_bytes += weights[i] * hair_ambient_bytes(words.y);
+            along_steps += weights[i] * ambient_steps(words.x);
+            against_steps += weights[i] * ambient_steps(words.y);
+            along_open += weights[i] * ambient_open(words.x);
+            against_open += weights[i] * ambient_open(words.y);
         }
-        result.ambient = AmbientDepths(ambient_depth(along_bytes), ambient_depth(against_bytes));
+        result.ambient = AmbientDepths(ambient_depth(along_steps), ambient_depth(against_steps),
+                                       along_open, against_open);
     }
     result.seed = card_seed(shape, triangle.salt);
     result.tint = (set.flags & kCardsColors) != 0u ? card_color(set.color.at[texel]) : vec3(1.0);

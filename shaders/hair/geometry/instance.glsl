@@ -50,14 +50,14 @@ struct HairSample {
     AmbientDepths ambient;  // in strands of nominal width
 };
 
-vec3 hair_ambient_bytes(uint word) { return vec3(word & 0xffu, (word >> 8) & 0xffu, (word >> 16) & 0xffu); }
-
 /// Optical depths around a point between i and i + 1.
 AmbientDepths hair_ambient_depths(HairInstance hair, uint i, float along) {
-    if (uint64_t(hair.ambient) == 0ul) return AmbientDepths(vec3(0.0), vec3(0.0));
+    if (uint64_t(hair.ambient) == 0ul) return AmbientDepths(vec3(0.0), vec3(0.0), vec3(1.0), vec3(1.0));
     uvec2 a = hair.ambient.at[i], b = hair.ambient.at[i + 1u];
-    return AmbientDepths(ambient_depth(mix(hair_ambient_bytes(a.x), hair_ambient_bytes(b.x), along)),
-                         ambient_depth(mix(hair_ambient_bytes(a.y), hair_ambient_bytes(b.y), along)));
+    return AmbientDepths(ambient_depth(mix(ambient_steps(a.x), ambient_steps(b.x), along)),
+                         ambient_depth(mix(ambient_steps(a.y), ambient_steps(b.y), along)),
+                         mix(ambient_open(a.x), ambient_open(b.x), along),
+                         mix(ambient_open(a.y), ambient_open(b.y), along));
 }
 
 /// Where pixel centre `pixel` meets the segment: positions perspective-correct, tangents smooth along

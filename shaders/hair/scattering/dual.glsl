@@ -42,9 +42,14 @@ VELLUS_FN HairAverages hair_averages(VELLUS_IN(HairFibre) fibre, HairSurface s, 
                            vec3(0.0f));
     vec3 trt_forward = path_trt * max(u2 * dot(fibre.forward[2], q), 0.0f);
     vec3 trt_backward = path_trt * max(u2 * dot(fibre.backward[2], q), 0.0f);
+    // What has turned inside three times and more, as much as the others leave of light that nothing absorbs.
+    float others = dot(fibre.r_forward + fibre.r_backward, cubic) +
+                   u2 * dot(fibre.forward[0] + fibre.forward[1] + fibre.forward[2] + fibre.backward[0] +
+                            fibre.backward[1] + fibre.backward[2], q);
+    vec3 residual = path_trt * path_long * (0.5f * clamp(1.0f - others, 0.0f, 0.2f));
     HairAverages a;
-    a.forward = clamp(vec3(r_forward) + tt_forward + trt_forward, vec3(1.0e-4f), vec3(0.995f));
-    a.backward = clamp(vec3(r_backward) + tt_backward + trt_backward, vec3(1.0e-4f),
+    a.forward = clamp(vec3(r_forward) + tt_forward + trt_forward + residual, vec3(1.0e-4f), vec3(0.995f));
+    a.backward = clamp(vec3(r_backward) + tt_backward + trt_backward + residual, vec3(1.0e-4f),
                        vec3(0.9999f) - a.forward);
     // Spreads hardly depend on the channel: one for all, weighted by energy.
     vec3 third = vec3(1.0f / 3.0f);

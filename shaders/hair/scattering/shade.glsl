@@ -70,7 +70,7 @@ vec3 shade(HairSurface surface, vec3 position, vec3 tangent, AmbientDepths ambie
         mat3 axes = mat3(hair.ambient_axes[0], hair.ambient_axes[1], hair.ambient_axes[2]);
         ambient.along *= hair.ambient_scale;
         ambient.against *= hair.ambient_scale;
-        radiance += hair_ambient(fibre, surface, frame, tangent * axes, frame.normal * axes,
+        radiance += hair_ambient(fibre, surface, frame, tangent, axes, lights.environment,
                                  hair.ambient_light, ambient);
     }
     if (kEnvironment == 1) {

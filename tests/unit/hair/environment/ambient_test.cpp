@@ -31,120 +31,128 @@ glsl::AmbientLight even_light() {
     return light;
 }
 
+glsl::Sh9 even_sky() {
+    glsl::Sh9 sky{};
+    sky.c[0] = glm::vec3(1.0f);
+    return sky;
+}
+
+glsl::AmbientDepths depths_of(const glm::vec3& along, const glm::vec3& against) {
+    return {along, against, glm::vec3(1.0f), glm::vec3(1.0f)};
+}
+
 glm::vec3 shade(const glm::vec3& color, const glm::vec3& tangent, const glm::vec3& eye,
                 const glsl::AmbientDepths& depths) {
     const auto s = surface(color);
     const auto frame = glsl::hair_frame(tangent, eye);
-    return glsl::hair_ambient(fibre_of(s), s, frame, tangent, frame.normal, even_light(), depths);
+    return glsl::hair_ambient(fibre_of(s), s, frame, tangent, glm::mat3(1.0f), even_sky(),
+                              even_light(), depths);
 }
 
 TEST(Ambient, WhiteHairUnderAnEvenSkyIsAsBrightAsTheSky) {
     const glm::vec3 eye = glm::normalize(glm::vec3(0.2f, 0.1f, 1.0f));
-    const auto at = [&](float before, float behind) {
-        return shade(glm::vec3(1.0f), {0, 1, 0}, eye,
-                     {glm::vec3(before), glm::vec3(before, before, behind)})
-            .x;
+    const auto at = [&](float before, float behind, float open) {
+        auto depths = depths_of(glm::vec3(before), glm::vec3(before, before, behind));
+        depths.open_against.z = open;
+        return shade(glm::vec3(1.0f), {0, 1, 0}, eye, depths).x;
     };
-    for (const float before : {0.0f, 0.5f, 1.0f}) {
-        // The fibre keeps what its residual lobe would send, some percent a scattering.
-        for (const float behind : {0.0f, 1.0f}) {
-            EXPECT_GT(at(before, behind), 0.75f) << before << " " << behind;
-            EXPECT_LT(at(before, behind), 1.05f) << before << " " << behind;
+    for (const float before : {0.0f, 0.5f, 1.0f, 5.0f}) {
+        for (const float behind : {0.0f, 1.0f, 20.0f}) {
+            // What is passed on and turned back is cut at 0.9999 of what comes, at each turning.
+            EXPECT_NEAR(at(before, behind, 1.0f), 1.0f, 0.005f) << before << " " << behind;
         }
         // Skin behind keeps what reaches it.
-        EXPECT_LT(at(before, 60.0f), 0.9f * at(before, 0.0f)) << before;
-        EXPECT_GT(at(before, 60.0f), 0.6f) << before;
+        EXPECT_LT(at(before, 0.0f, 0.0f), 0.8f) << before;
+        EXPECT_GT(at(before, 0.0f, 0.0f), 0.2f) << before;
     }
 }
 
-/// Streams in a slab of thin layers, each of which passes and turns what meets it until nothing
-/// changes any more.
-std::array<double, 2> layered(double forward, double backward, double ahead, double behind,
-                              double light_ahead, double light_behind) {
-    constexpr int kLayers = 400;
-    const double thin = (ahead + behind) / kLayers;
-    const double passed = 1.0 - (1.0 - forward) * thin;
-    const double turned = backward * thin;
-    std::vector<double> in(kLayers + 1, 0.0);   // towards the back, in front of layer i
-    std::vector<double> out(kLayers + 1, 0.0);  // towards the front
-    in[0] = light_ahead;
-    out[kLayers] = light_behind;
-    for (int round = 0; round < 200; ++round) {
-        for (int i = 0; i < kLayers; ++i) in[i + 1] = passed * in[i] + turned * out[i + 1];
-        for (int i = kLayers; i-- > 0;) out[i] = passed * out[i + 1] + turned * in[i];
-    }
-    const int at = static_cast<int>(std::lround(ahead / thin));
-    return {in[at], out[at]};
-}
-
-TEST(Ambient, StreamsAreThoseOfManyThinLayers) {
-    for (const auto& [forward, backward] : {std::pair(0.6, 0.38), {0.3, 0.1}, {0.05, 0.02}}) {
-        for (const auto& [ahead, behind] : {std::pair(0.5, 1.0), {1.0, 0.0}, {0.0, 0.8}}) {
-            const glm::vec3 lost(1.0 - forward);
-            const glm::vec3 turned(backward);
-            const glm::vec3 k = glm::sqrt(lost * lost - turned * turned);
-            const auto streams =
-                glsl::ambient_streams(lost, turned, k, static_cast<float>(ahead),
-                                      static_cast<float>(behind), glm::vec3(1.0f), glm::vec3(0.4f));
-            const auto layers = layered(forward, backward, ahead, behind, 1.0, 0.4);
-            // Thin layers leave out what happens twice within one.
-            EXPECT_NEAR(streams.ahead.x, layers[0], 0.005) << forward << " " << ahead;
-            EXPECT_NEAR(streams.behind.x, layers[1], 0.005) << forward << " " << ahead;
+TEST(Ambient, TheLevelIsWhatAllTurningsAddUpTo) {
+    glsl::AmbientLight light{};
+    light.along[0] = {1.0f, 0.4f, 0.1f};
+    light.along[1] = glm::vec3(3.0f);
+    light.against[2] = glm::vec3(0.5f);
+    glsl::AmbientDepths depths = depths_of({0.3f, 2.0f, 1.0f}, {4.0f, 0.0f, 0.7f});
+    depths.open_along.z = 0.4f;
+    depths.open_against.x = 0.0f;
+    const glm::vec3 lost{0.32f, 0.5f, 0.9f};
+    const glm::vec3 back{0.3f, 0.2f, 0.1f};
+    const auto arrival = glsl::ambient_arrival(lost, back, light, depths);
+    for (int channel = 0; channel < 3; ++channel) {
+        const double loss = lost[channel];
+        const double turned = static_cast<double>(back[channel]) / loss;
+        const auto way = [&](int i, bool along) {
+            const double hair = along ? depths.along[i] : depths.against[i];
+            const double open = along ? depths.open_along[i] : depths.open_against[i];
+            const double through = std::exp(-loss * hair);
+            return std::pair(through * open,
+                             turned * (1.0 - through) +
+                                 through * (1.0 - open) * static_cast<double>(glsl::kAmbientSkin));
+        };
+        // Turning by turning.
+        double level = 0.0;
+        for (int turning = 0; turning < 500; ++turning) {
+            double sum = 0.0;
+            for (int i = 0; i < 3; ++i) {
+                sum += way(i, true).first * static_cast<double>(light.along[i][channel]) +
+                       way(i, true).second * level;
+                sum += way(i, false).first * static_cast<double>(light.against[i][channel]) +
+                       way(i, false).second * level;
+            }
+            level = sum / 6.0;
         }
-    }
-}
-
-TEST(Ambient, DeepHairFadesAsItsStreamsDo) {
-    const glm::vec3 lost(0.4f);
-    const glm::vec3 turned(0.3f);
-    const glm::vec3 k = glm::sqrt(lost * lost - turned * turned);
-    const auto ahead = [&](float depth) {
-        return glsl::ambient_streams(lost, turned, k, depth, depth, glm::vec3(1.0f),
-                                     glm::vec3(0.0f))
-            .ahead.x;
-    };
-    for (const float depth : {2.0f, 5.0f}) {
-        EXPECT_NEAR(ahead(depth + 1.0f) / ahead(depth), std::exp(-k.x), 1e-5f) << depth;
+        for (int i = 0; i < 3; ++i) {
+            EXPECT_NEAR(arrival.sky.along[i][channel], way(i, true).first, 1e-5) << i;
+            EXPECT_NEAR(arrival.sky.against[i][channel], way(i, false).first, 1e-5) << i;
+            EXPECT_NEAR(arrival.around.along[i][channel], way(i, true).second * level, 1e-5) << i;
+            EXPECT_NEAR(arrival.around.against[i][channel], way(i, false).second * level, 1e-5)
+                << i;
+        }
     }
 }
 
 TEST(Ambient, BlackHairLosesLightByItsOpticalDepth) {
     const glm::vec3 eye(0.0f, 0.0f, 1.0f);
-    const auto open = shade(glm::vec3(0.0f), {0, 1, 0}, eye, {glm::vec3(0.0f), glm::vec3(0.0f)});
-    const auto deep = shade(glm::vec3(0.0f), {0, 1, 0}, eye, {glm::vec3(2.0f), glm::vec3(2.0f)});
-    // Only R is left, a few percent of which goes on: e^(-2 (1 - a_f)).
-    EXPECT_NEAR(deep.x / open.x, std::exp(-2.0), 0.03);
-    EXPECT_GT(open.x, 0.02f);
-}
-
-TEST(Ambient, LightFromBelowDoesNotReachHairLitFromBelowThroughHair) {
-    glsl::AmbientLight light{};
-    light.against[1] = glm::vec3(1.0f);
-    const auto s = surface({0.5f, 0.4f, 0.3f});
-    const glm::vec3 tangent(1.0f, 0.0f, 0.0f);
-    const auto frame = glsl::hair_frame(tangent, {0, 0, 1});
-    const auto fibre = fibre_of(s);
     const auto at = [&](float depth) {
-        return glsl::hair_ambient(fibre, s, frame, tangent, frame.normal, light,
-                                  {glm::vec3(0.0f), glm::vec3(0, depth, 0)});
+        return shade(glm::vec3(0.0f), {0, 1, 0}, eye, depths_of(glm::vec3(depth), glm::vec3(depth)))
+            .x;
     };
-    EXPECT_GT(at(0.0f).x, 0.1f);
-    EXPECT_LT(at(40.0f).x, 0.1f * at(0.0f).x);
-    // Light hair passes more of it on than dark, red more than blue.
-    EXPECT_GT(at(3.0f).r / at(0.0f).r, at(3.0f).b / at(0.0f).b);
+    // Only R is left, a few percent of which goes on: e^(-2 (1 - a_f)).
+    EXPECT_NEAR(at(2.0f) / at(0.0f), std::exp(-2.0), 0.03);
+    EXPECT_GT(at(0.0f), 0.02f);
 }
 
-TEST(Ambient, CodesHoldDepthsToAFewPercent) {
-    for (float depth = 0.02f; depth < 30.0f; depth *= 1.1f) {
-        const auto back =
-            glsl::ambient_depth(glm::vec3(static_cast<float>(glsl::ambient_code(depth))));
-        // Half a step of 254 in d / (d + 4): its slope is 4 / (d + 4)².
-        const float step = 0.5f / 254.0f * (depth + 4.0f) * (depth + 4.0f) / 4.0f;
-        EXPECT_NEAR(back.x, depth, 1.2f * step) << depth;
+TEST(Ambient, TheSkyIsThatOfALobe) {
+    // 1 + 0.5 y + 0.3 (3y² - 1) as irradiance/π: bands 1 and 2 have 2/3 and 1/4.
+    glsl::Sh9 sky = even_sky();
+    sky.c[2] = glm::vec3(0.5f * 2.0f / 3.0f);
+    sky.c[6] = glm::vec3(0.3f / 4.0f);
+    for (const glm::vec3 direction : {glm::vec3(0, 1, 0), {0.6f, -0.8f, 0}, {0.48f, 0.6f, 0.64f}}) {
+        const double y = direction.y;
+        const double variance = 0.35 * 0.35;
+        const double by_hand = 1.0 + 0.5 * y * std::exp(-variance) +
+                               0.3 * (3.0 * y * y - 1.0) * std::exp(-3.0 * variance);
+        EXPECT_NEAR(glsl::ambient_sky(sky, direction).x, by_hand, 1e-3) << y;
+    }
+}
+
+TEST(Ambient, CodesHoldDepthsAndOpenness) {
+    for (float depth = 0.1f; depth < 30.0f; depth *= 1.1f) {
+        const uint32_t code = glsl::ambient_code(depth, 0.4f);
+        // Three to a word: this one between others that are full.
+        const uint32_t full = glsl::ambient_code(1e30f, 1.0f);
+        const uint32_t word = full | code << 10 | full << 20;
+        const glm::vec3 back = glsl::ambient_depth(glsl::ambient_steps(word));
+        // Half a step of 62 in d / (d + 4): its slope is 4 / (d + 4)².
+        const float step = 0.5f / 62.0f * (depth + 4.0f) * (depth + 4.0f) / 4.0f;
+        EXPECT_NEAR(back.y, depth, 1.4f * step) << depth;
+        EXPECT_EQ(back.x, glsl::kAmbientMost);
+        EXPECT_EQ(back.z, glsl::kAmbientMost);
+        EXPECT_NEAR(glsl::ambient_open(word).y, 0.4f, 0.5f / 15.0f);
+        EXPECT_EQ(glsl::ambient_open(word).x, 1.0f);
     }
     EXPECT_EQ(glsl::ambient_depth(glm::vec3(0.0f)).x, 0.0f);
-    EXPECT_EQ(glsl::ambient_depth(glm::vec3(254.0f)).x, glsl::kAmbientMost);
-    EXPECT_EQ(glsl::ambient_code(1e30f), 254u);
+    EXPECT_EQ(glsl::ambient_code(1e30f, 1.0f), 1022u);
 }
 
 /// Strands along x that fill a block of 20 x 20 x 20 cm evenly, by the R2 sequence.
@@ -162,7 +170,7 @@ StrandData block(int count) {
 TEST(AmbientDepth, CountsTheStrandsOfABlock) {
     const StrandData strands = block(10'000);
     const float width = 0.0004f;
-    const auto depths = ambient_depths(strands.positions, strands.strand_begin, width);
+    const auto depths = ambient_depths(strands.positions, strands.strand_begin, {width});
     // Across, a metre of the block holds 10,000 · 0.2 m · 0.4 mm / 0.2³ m³ of area.
     const double density = 10'000.0 * 0.2 * static_cast<double>(width) / (0.2 * 0.2 * 0.2);
     double sum = 0.0;
@@ -172,11 +180,11 @@ TEST(AmbientDepth, CountsTheStrandsOfABlock) {
         if (std::abs(p.x - 0.1f) > 0.01f || std::abs(p.z - 0.1f) > 0.015f) continue;
         const double above = 0.2 - static_cast<double>(p.y);
         if (above > 0.08 || above < 0.03) continue;  // rays leave at the top
-        // Straight up, and to the corners: √3 as far, past strands at sin² = 2/3 of their width.
+        // Straight up, and to the corners: √3 as far, past strands at a sine of √(2/3).
         const double straight = density * above;
-        const double corner = 2.0 / std::sqrt(3.0) * straight;
+        const double corner = std::sqrt(2.0) * straight;
         const double through = 0.4 * std::exp(-0.5 * straight) + 0.6 * std::exp(-0.5 * corner);
-        sum += static_cast<double>(depths[i][1]);
+        sum += static_cast<double>(depths[i].hair[1]);
         by_hand += -std::log(through) / 0.5;
     }
     ASSERT_GT(by_hand, 0.0);
@@ -187,21 +195,68 @@ TEST(AmbientDepth, CountsTheStrandsOfABlock) {
 
 TEST(AmbientDepth, NothingIsInTheWayOnTheOutside) {
     const StrandData strands = block(1'600);
-    const auto depths = ambient_depths(strands.positions, strands.strand_begin, 0.001f);
+    const auto depths = ambient_depths(strands.positions, strands.strand_begin, {0.001f});
     double open = 0.0;
     double inward = 0.0;
     int count = 0;
     for (size_t i = 0; i < depths.size(); ++i) {
         const glm::vec3 p = strands.positions[i];
         if (p.y < 0.196f || std::abs(p.x - 0.1f) > 0.01f || std::abs(p.z - 0.1f) > 0.05f) continue;
-        open += depths[i][1];
-        inward += depths[i][4];
+        open += depths[i].hair[1];
+        inward += depths[i].hair[4];
         ++count;
     }
     ASSERT_GT(count, 0);
     EXPECT_LT(open / count, 1.0);
     // Straight down nothing gets through; some of the corners' rays leave by the near sides.
     EXPECT_GT(inward / count, 5.0 * open / count);
+}
+
+TEST(AmbientDepth, StrandsThatTaperStopMostNearTheirRoots) {
+    const StrandData strands = block(4'000);
+    const auto even = ambient_depths(strands.positions, strands.strand_begin, {0.0005f, 1.0f});
+    const auto pointed = ambient_depths(strands.positions, strands.strand_begin, {0.001f, 0.0f});
+    std::array<double, 5> ratio{};
+    std::array<double, 5> count{};
+    for (size_t i = 0; i < even.size(); ++i) {
+        const glm::vec3 p = strands.positions[i];
+        if (std::abs(p.y - 0.1f) > 0.03f || std::abs(p.z - 0.1f) > 0.03f) continue;
+        ratio[i % 5] += static_cast<double>(pointed[i].hair[1] / even[i].hair[1]);
+        count[i % 5] += 1.0;
+    }
+    // As wide on average, twice that at the roots (x = 0), nothing at the tips. Slanting
+    // directions, with 0.6 of the weight, see up to half of the strand, and most light takes the
+    // thinner way.
+    EXPECT_GT(ratio[0] / count[0], 1.2);
+    EXPECT_NEAR(ratio[2] / count[2], 1.0, 0.2);
+    EXPECT_LT(ratio[4] / count[4], 0.5);
+}
+
+TEST(AmbientDepth, RootsAroundABallHideWhatLiesBehindIt) {
+    Groom groom;
+    constexpr int kStrands = 3'000;
+    for (int strand = 0; strand < kStrands; ++strand) {
+        const double y = 1.0 - (2.0 * strand + 1.0) / kStrands;
+        const double turn = 2.39996322972865332 * strand;
+        const double r = std::sqrt(1.0 - y * y);
+        const glm::vec3 out(r * std::cos(turn), y, r * std::sin(turn));
+        for (int i = 0; i <= 4; ++i) groom.points.push_back((0.1f + 0.01f * i) * out);
+        groom.strand_begin.push_back(static_cast<uint32_t>(groom.points.size()));
+    }
+    const StrandData strands = prepare_strands(groom, glm::dmat4(1.0), 0.0001f);
+    const auto depths = ambient_depths(strands.positions, strands.strand_begin, {0.0001f});
+    for (size_t i = 0; i < depths.size(); ++i) {
+        const glm::vec3 p = strands.positions[i];
+        for (size_t k = 0; k < 3; ++k) {
+            const float at = p[static_cast<int>(k)];
+            // Nearly on an axis: out there is sky, and behind it the ball.
+            if (std::abs(at) < 0.99f * glm::length(p)) continue;
+            EXPECT_EQ(depths[i].open[at > 0.0f ? k : k + 3], 1.0f) << i;
+            // From the tips the corners' rays, 55° off, pass it by.
+            const float behind = depths[i].open[at > 0.0f ? k + 3 : k];
+            EXPECT_LT(behind, i % 5 == 0 ? 0.05f : 0.7f) << i;
+        }
+    }
 }
 
 /// Means of (1 - 0.5)^n over directions, n the strands that a ray meets, weighted by squared
@@ -249,7 +304,7 @@ TEST(AmbientDepth, IsWhatRaysThroughTheStrandsFind) {
                             .opacity = 0.5,
                             .strand = strands.segment_strand[i]});
     }
-    const auto depths = ambient_depths(strands.positions, strands.strand_begin, kWidth);
+    const auto depths = ambient_depths(strands.positions, strands.strand_begin, {kWidth});
     // Along the strands, and across them.
     std::array<double, 2> difference{};
     std::array<double, 2> bias{};
@@ -257,7 +312,7 @@ TEST(AmbientDepth, IsWhatRaysThroughTheStrandsFind) {
     for (size_t i = 0; i < depths.size(); i += 517) {
         const auto rays = brute_force(segments, glm::dvec3(strands.positions[i]));
         for (size_t k = 0; k < 6; ++k) {
-            const double through = std::exp(-0.5 * static_cast<double>(depths[i][k]));
+            const double through = std::exp(-0.5 * static_cast<double>(depths[i].hair[k]));
             const size_t across = k % 3 == 0 ? 0 : 1;
             difference[across] += std::abs(through - rays[k]);
             bias[across] += through - rays[k];
@@ -265,9 +320,10 @@ TEST(AmbientDepth, IsWhatRaysThroughTheStrandsFind) {
         }
     }
     ASSERT_GE(count[0], 28.0);
-    // Cells of 2 mm that get coarser with distance.
+    // Cells of 2 mm that get coarser with distance, and fourteen directions, none of which lies
+    // near enough to the strands to pass along them.
     EXPECT_LT(difference[1] / count[1], 0.06);
-    EXPECT_NEAR(bias[1] / count[1], 0.0, 0.03);
+    EXPECT_NEAR(bias[1] / count[1], 0.0, 0.05);
     // Fourteen directions stand for the sphere: straight along the strands, one meets none of them,
     // where its neighbours do.
     EXPECT_LT(difference[0] / count[0], 0.17);

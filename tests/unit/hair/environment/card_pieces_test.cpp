@@ -12,9 +12,14 @@
 namespace vellus::hair {
 namespace {
 
+/// Area seen along x, y and z.
 glm::dvec3 total(const AmbientPieces& pieces) {
     glm::dvec3 sum(0.0);
-    for (const glm::vec3& area : pieces.area) sum += area;
+    for (const glm::dvec3 strands : pieces.strands) {
+        const glm::dvec3 squared = strands * strands;
+        sum += glm::sqrt(
+            glm::dvec3(squared.y + squared.z, squared.z + squared.x, squared.x + squared.y));
+    }
     return sum;
 }
 
