@@ -78,7 +78,7 @@ Rig add_person(GltfScene& scene, size_t index, const std::vector<Json>& geometry
             {"speed", who.scale * gait.stride_metres / gait.stride_seconds}};
     }
     const Node node = scene.add_node(place);
-    const Rig rig = scene.add_rig(figure_joints(), node, number + "_");
+    Rig rig = scene.add_rig(figure_joints(), node, number + "_");
     Json look = {{"width", {{"root", who.width}, {"tip_scale", 0.45}}},
                  {"material",
                   {{"melanin", {{"eumelanin", who.eumelanin}, {"pheomelanin", who.pheomelanin}}},

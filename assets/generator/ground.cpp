@@ -46,8 +46,10 @@ std::vector<double> ring_radii(const Ground& ground) {
     for (int i = 1; i <= 7; ++i) {
         radii.push_back(mix(inner, outer, i / 7.0));
     }
-    for (double r = outer * 1.08; r < ground.reach; r *= 1.42) {
+    double r = outer * 1.08;
+    while (r < ground.reach) {
         radii.push_back(r);
+        r *= 1.42;
     }
     radii.push_back(ground.reach);
     return radii;

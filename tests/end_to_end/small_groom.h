@@ -25,7 +25,7 @@ inline std::filesystem::path write_small_groom(const std::filesystem::path& fold
         }
         groom.strand_begin.push_back(static_cast<uint32_t>(groom.points.size()));
     }
-    const auto path = folder / "small.tfx";
+    auto path = folder / "small.tfx";
     const auto saved = hair::save_groom(groom, path);
     EXPECT_TRUE(saved) << saved.error().message();
     return path;

@@ -41,7 +41,7 @@ fs::path scene_with_hair(const std::string& name, const fs::path& glb, const std
     }
     scene["extensionsUsed"].push_back("VELLUS_hair");
     if (edit) edit(scene);
-    const fs::path path = folder / (name + ".gltf");
+    fs::path path = folder / (name + ".gltf");
     if (!write_file(path, std::string_view(scene.dump()))) return {};
     return path;
 }
@@ -69,7 +69,7 @@ fs::path write_fur(const std::string& name, const fs::path& glb, const std::stri
     EXPECT_TRUE(mesh);
     if (!mesh) return {};
     const Fur fur = grow_fur(mesh->positions, mesh->triangles, strands, length, 8);
-    const fs::path path = work_folder() / "scenes" / (name + ".glb");
+    fs::path path = work_folder() / "scenes" / (name + ".glb");
     fs::create_directories(path.parent_path());
     const auto bytes = hair::write_glb(fur.groom);
     EXPECT_TRUE(bytes);

@@ -123,7 +123,8 @@ TEST(RealScenes, HairOnTheHeadJointFollowsAnAnimatedCharacter) {
         const auto mask = test::changed(pair.with[frame], pair.without[frame]);
         double sum = 0.0;
         for (size_t i = 0; i < mask.size(); ++i) {
-            sum += mask[i] * static_cast<double>(i / pair.with[frame].width);
+            const size_t row = i / pair.with[frame].width;
+            sum += mask[i] * static_cast<double>(row);
         }
         ASSERT_GT(area(mask), 100u) << "frame " << frame;
         centres.push_back(sum / static_cast<double>(area(mask)));

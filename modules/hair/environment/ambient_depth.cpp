@@ -20,37 +20,10 @@ constexpr float kMatched = 0.5f;    // share of the optical depth at which means
 constexpr float kOwn = 0.4f;        // weight of an axis' own direction
 constexpr float kCorner = 0.577350269f;
 
-/// Strands in a cell: the sum of a·t·tᵀ, a their area (length times width) per volume, t where they
-/// point.
-struct Strands {
-    glm::vec3 diagonal{0.0f};
-    glm::vec3 beside{0.0f};  ///< xy, yz, zx
-
-    Strands& operator+=(const Strands& other) {
-        diagonal += other.diagonal;
-        beside += other.beside;
-        return *this;
-    }
-    [[nodiscard]] Strands scaled(float s) const { return {s * diagonal, s * beside}; }
-    /// Area seen along `d`: exact for parallel strands; for those that point anywhere √(2/3), not
-    /// π/4, of their area.
-    [[nodiscard]] float seen(const glm::vec3& d) const {
-        const float whole = diagonal.x + diagonal.y + diagonal.z;
-        const float along =
-            glm::dot(diagonal, d * d) + 2.0f * glm::dot(beside, d * glm::vec3(d.y, d.z, d.x));
-        return std::sqrt(std::max(whole * (whole - along), 0.0f));
-    }
-};
-
-/// Of unit direction `t`.
-Strands strands_along(const glm::vec3& t, float area) {
-    return {area * t * t, area * t * glm::vec3(t.y, t.z, t.x)};
-}
-
 struct Grid {
     glm::ivec3 size{1};
     float cell = 1.0f;
-    std::vector<Strands> strands;
+    std::vector<StrandArea> strands;  ///< per volume
 
     [[nodiscard]] size_t index(const glm::ivec3& c) const {
         return (static_cast<size_t>(c.z) * static_cast<size_t>(size.y) + static_cast<size_t>(c.y)) *
@@ -67,11 +40,11 @@ struct Grid {
         return index(glm::clamp(glm::ivec3(glm::floor(p)), glm::ivec3(0), size - 1));
     }
     /// Between the centres of eight cells; `p` in cells.
-    [[nodiscard]] Strands at(const glm::vec3& p) const {
+    [[nodiscard]] StrandArea at(const glm::vec3& p) const {
         const glm::vec3 q = p - 0.5f;
         const glm::vec3 low = glm::floor(q);
         const glm::vec3 f = q - low;
-        Strands sum;
+        StrandArea sum;
         for (int corner = 0; corner < 8; ++corner) {
             const glm::ivec3 o(corner & 1, (corner >> 1) & 1, corner >> 2);
             const glm::ivec3 c = glm::ivec3(low) + o;
@@ -110,8 +83,8 @@ void add_segment(const glm::vec3& a, const glm::vec3& along, float width, const 
     const float length = glm::length(along);
     if (length <= 0.0f) return;
     const int steps = std::max(1, static_cast<int>(std::ceil(2.0f * length / grid.cell)));
-    const Strands piece =
-        strands_along(along / length, length * width / (grid.volume() * static_cast<float>(steps)));
+    const StrandArea piece =
+        area_along(along / length, length * width / (grid.volume() * static_cast<float>(steps)));
     for (int i = 0; i < steps; ++i) {
         const float t = (static_cast<float>(i) + 0.5f) / static_cast<float>(steps);
         grid.strands[grid.near((a + t * along - origin) / grid.cell)] += piece;
@@ -141,10 +114,8 @@ void add_strands(const Roots& strands, const StrandTaper& taper, const glm::vec3
 
 void add_pieces(const AmbientPieces& pieces, const glm::vec3& origin, Grid& grid) {
     for (size_t i = 0; i < pieces.at.size(); ++i) {
-        const float area = glm::length(pieces.strands[i]);
-        if (area <= 0.0f) continue;
         grid.strands[grid.near((pieces.at[i] - origin) / grid.cell)] +=
-            strands_along(pieces.strands[i] / area, area / grid.volume());
+            pieces.strands[i].scaled(1.0f / grid.volume());
     }
 }
 

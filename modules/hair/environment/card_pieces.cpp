@@ -4,6 +4,7 @@
 
 #include "engine/platform/jobs.h"
 #include "modules/hair/cards/card_groom.h"
+#include "modules/hair/cards/row_directions.h"
 #include "modules/hair/environment/ambient_pieces.h"
 
 namespace vellus::hair {
@@ -21,11 +22,11 @@ float opacity_at(const CardAtlas& atlas, const glm::vec2& uv) {
     return static_cast<float>(atlas.opacity[size_t{texel.y} * atlas.width + texel.x]) / 255.0f;
 }
 
-/// A triangle of a card: corners, their places in the atlas, and where its strands lead.
+/// A triangle of a card: corners, their places in the atlas, and where its strands lead, by area.
 struct Facet {
     std::array<glm::vec3, 3> points;
     std::array<glm::vec2, 3> uvs;
-    glm::vec3 along{0.0f};
+    StrandArea strands;
     int parts = 1;  ///< along each side
 
     /// Place of the part in row `i`, column `j`; odd columns stand on their heads.
@@ -67,36 +68,60 @@ glm::vec3 along_at(const CardGroom& cards, uint32_t point) {
     return cards.points[after] - cards.points[before];
 }
 
-Facet facet_of(const CardGroom& cards, const glm::uvec3& triangle, float piece) {
+/// In the world what a row says in its frame.
+StrandArea in_world(const RowDirections& row, const glm::vec3& across, const glm::vec3& along) {
+    const glm::mat3 frame(across, along, glm::cross(across, along));
+    const glm::vec3 s = row.squares;
+    const glm::vec3 p = row.products;
+    const glm::mat3 moments(s.x, p.x, p.z, p.x, s.y, p.y, p.z, p.y, s.z);
+    const glm::mat3 m = frame * moments * glm::transpose(frame);
+    return {{m[0][0], m[1][1], m[2][2]}, {m[0][1], m[1][2], m[2][0]}};
+}
+
+glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
+    const float length = glm::length(v);
+    return length > 0.0f ? v / length : otherwise;
+}
+
+/// Where the strands of the row of `point` lead, of area 1.
+StrandArea strands_at(const CardGroom& cards, const std::vector<RowDirections>& rows,
+                      uint32_t point) {
+    const glm::vec3 along = unit_or(along_at(cards, point), {0, 1, 0});
+    if (rows.empty()) return area_along(along, 1.0f);
+    const uint32_t left = point - point % 3;
+    const glm::vec3 wide = cards.points[left + 1] - cards.points[left];
+    const glm::vec3 across = unit_or(wide - glm::dot(wide, along) * along, {1, 0, 0});
+    return in_world(rows[point / 3], across, along);
+}
+
+Facet facet_of(const CardGroom& cards, const std::vector<RowDirections>& rows,
+               const glm::uvec3& triangle, float piece) {
     Facet facet;
     float longest = 0.0f;
     for (int k = 0; k < 3; ++k) {
         const auto i = static_cast<size_t>(k);
         facet.points[i] = cards.points[triangle[k]];
         facet.uvs[i] = cards.uvs[triangle[k]];
-        facet.along += along_at(cards, triangle[k]);
+        facet.strands += strands_at(cards, rows, triangle[k]).scaled(1.0f / 3.0f);
         longest =
             std::max(longest, glm::distance(facet.points[i], cards.points[triangle[(k + 1) % 3]]));
     }
-    const float length = glm::length(facet.along);
-    if (length <= 0.0f) facet.along = facet.points[1] - facet.points[0];
-    facet.along = facet.along / std::max(glm::length(facet.along), 1e-30f);
     facet.parts = std::clamp(static_cast<int>(std::ceil(longest / piece)), 1, kMostParts);
     return facet;
 }
 
-void add_facet(const CardAtlas& atlas, const Facet& facet, glm::vec3* at, glm::vec3* strands) {
+void add_facet(const CardAtlas& atlas, const Facet& facet, glm::vec3* at, StrandArea* strands) {
     const glm::vec3 normal =
         glm::cross(facet.points[1] - facet.points[0], facet.points[2] - facet.points[0]);
     const float each = 0.5f * glm::length(normal) / static_cast<float>(facet.parts * facet.parts);
-    glm::vec3* const begin = strands;
+    StrandArea* const begin = strands;
     float mean = 0.0f;
     for (int i = 0; i < facet.parts; ++i) {
         for (int j = 0; j < 2 * (facet.parts - i) - 1; ++j) {
             const float c = cover(atlas, facet, i, j);
             mean += c / static_cast<float>(facet.parts * facet.parts);
             *at++ = blend(facet.points, facet.weights(i, j, glm::vec2(1.0f / 3.0f)));
-            *strands++ = facet.along * (c * each);
+            *strands++ = facet.strands.scaled(c * each);
         }
     }
     if (mean <= 0.0f) return;
@@ -104,7 +129,7 @@ void add_facet(const CardAtlas& atlas, const Facet& facet, glm::vec3* at, glm::v
     // see too few strands to tell x from what they cover.
     const float c = std::min(mean, kMostCover);
     const float more = -std::log(1.0f - c) / c;
-    std::for_each(begin, strands, [&](glm::vec3& part) { part *= more; });
+    std::for_each(begin, strands, [&](StrandArea& part) { part = part.scaled(more); });
 }
 
 }  // namespace
@@ -112,10 +137,11 @@ void add_facet(const CardAtlas& atlas, const Facet& facet, glm::vec3* at, glm::v
 AmbientPieces card_pieces(const CardGroom& cards) {
     const glm::vec3 size = bounds_of(cards).size();
     const float piece = std::max(std::max({size.x, size.y, size.z}) / kPiecesAcross, 1e-6f);
+    const auto rows = cards.ribbons ? row_directions(cards) : std::vector<RowDirections>();
     std::vector<Facet> facets;
     std::vector<size_t> begin = {0};
     for (const glm::uvec3& triangle : cards.triangles) {
-        facets.push_back(facet_of(cards, triangle, piece));
+        facets.push_back(facet_of(cards, rows, triangle, piece));
         const auto parts = static_cast<size_t>(facets.back().parts);
         begin.push_back(begin.back() + parts * parts);
     }

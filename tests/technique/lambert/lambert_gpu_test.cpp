@@ -34,7 +34,8 @@ double brute_force(double cos_i, double phi) {
 
 TEST(Lambert, IsTheMeanOfLambertsLawOverTheWidthSeen) {
     for (const double theta : {0.0, 0.5, -1.2}) {
-        for (double phi = -3.1; phi < 3.14; phi += 0.31) {
+        for (int step = -10; step <= 10; ++step) {
+            const double phi = 0.31 * step;
             const glm::vec3 to_light(std::cos(theta) * std::sin(phi), std::sin(theta),
                                      std::cos(theta) * std::cos(phi));
             const glm::vec3 s = lambert_of({0, 1, 0}, {0, 0, 1}, to_light);

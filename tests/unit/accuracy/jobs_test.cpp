@@ -13,6 +13,7 @@ namespace {
 
 std::vector<std::string> ids(const std::vector<Job>& jobs) {
     std::vector<std::string> result;
+    result.reserve(jobs.size());
     for (const Job& job : jobs) result.push_back(job.id());
     return result;
 }

@@ -6,7 +6,7 @@
 namespace vellus::demo {
 namespace {
 
-Radiance picture(std::vector<float> greys) {
+Radiance picture(const std::vector<float>& greys) {
     Radiance result{{static_cast<uint32_t>(greys.size()), 1}, {}};
     for (const float grey : greys) result.pixels.emplace_back(grey);
     return result;

@@ -116,7 +116,8 @@ TEST(AccuracyBudget, AgreesWithTryingAll) {
     const FrameModel model = frame_model(table(), "curly", "brown");
     // 2 opacity x 2 shadow x 1 scattering x 3 multiple x 2 environment.
     ASSERT_EQ(combinations(model).size(), 24u);
-    for (double budget = 5; budget < 25; budget += 0.5) {
+    for (int half = 10; half < 50; ++half) {
+        const double budget = 0.5 * half;
         const auto best = best_within(model, budget);
         ASSERT_TRUE(best);
         for (const Combination& each : combinations(model)) {

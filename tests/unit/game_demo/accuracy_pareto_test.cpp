@@ -31,6 +31,7 @@ TEST(Pareto, AgreesWithComparingAllPairs) {
     for (uint64_t round = 0; round < 200; ++round) {
         test::Random random(3, round);
         std::vector<CostAndError> points;
+        points.reserve(40);
         // Coarse numbers, so that costs and errors coincide.
         for (int i = 0; i < 40; ++i) {
             points.push_back({std::floor(12 * random.unit()), std::floor(12 * random.unit())});

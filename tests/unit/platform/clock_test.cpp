@@ -25,6 +25,7 @@ TEST(Clock, ProcessTimeAddsUpAllThreads) {
     const double wall = wall_seconds();
     const double cpu = process_cpu_seconds();
     std::vector<std::jthread> threads;
+    threads.reserve(3);
     for (int i = 0; i < 3; ++i) threads.emplace_back(burn, 0.02);
     threads.clear();
     EXPECT_GE(process_cpu_seconds() - cpu, 0.06);

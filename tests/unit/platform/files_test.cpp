@@ -6,7 +6,7 @@ namespace vellus {
 namespace {
 
 std::filesystem::path fresh_folder(const char* name) {
-    const auto folder = std::filesystem::temp_directory_path() / name;
+    auto folder = std::filesystem::temp_directory_path() / name;
     std::filesystem::remove_all(folder);
     return folder;
 }

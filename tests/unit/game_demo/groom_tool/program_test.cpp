@@ -23,6 +23,7 @@ struct Ended {
 Ended call(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "vellus_groom");
     std::vector<const char*> argv;
+    argv.reserve(arguments.size());
     for (const std::string& argument : arguments) argv.push_back(argument.c_str());
     std::ostringstream out;
     std::ostringstream err;

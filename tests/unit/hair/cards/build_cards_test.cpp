@@ -20,7 +20,6 @@ namespace vellus::hair {
 namespace {
 
 using test::add_lock;
-using test::Lock;
 using test::strands_of;
 
 constexpr float kWidth = 0.0004f;
@@ -170,10 +169,13 @@ double card_area(const CardGroom& cards) {
         const glm::vec2 high = cards.uvs[first + 4];
         const double length = glm::distance(0.5f * (p[0] + p[1]), 0.5f * (p[3] + p[4]));
         const double height = (high.y - low.y) * static_cast<float>(atlas.height);
-        const auto y0 = static_cast<uint32_t>(low.y * static_cast<float>(atlas.height) + 0.5f);
-        const auto y1 = static_cast<uint32_t>(high.y * static_cast<float>(atlas.height) + 0.5f);
-        const auto x0 = static_cast<uint32_t>(low.x * static_cast<float>(atlas.width) + 0.5f);
-        const auto x1 = static_cast<uint32_t>(high.x * static_cast<float>(atlas.width) + 0.5f);
+        const auto y0 =
+            static_cast<uint32_t>(std::lround(low.y * static_cast<float>(atlas.height)));
+        const auto y1 =
+            static_cast<uint32_t>(std::lround(high.y * static_cast<float>(atlas.height)));
+        const auto x0 = static_cast<uint32_t>(std::lround(low.x * static_cast<float>(atlas.width)));
+        const auto x1 =
+            static_cast<uint32_t>(std::lround(high.x * static_cast<float>(atlas.width)));
         for (uint32_t y = y0; y < y1; ++y) {
             const double t = (static_cast<double>(y - y0) + 0.5) / static_cast<double>(y1 - y0);
             const double width = glm::mix(static_cast<double>(glm::distance(p[0], p[1])),
@@ -400,6 +402,7 @@ TEST(CardAtlasTest, HairThatCrossesKeepsItsDirections) {
 TEST(CardPackTest, RectanglesNeitherOverlapNorLeaveTheAtlas) {
     std::mt19937 random(4);
     std::vector<glm::uvec2> sizes;
+    sizes.reserve(300);
     for (int i = 0; i < 300; ++i) {
         sizes.emplace_back(16 * (1 + random() % 8), 16 * (1 + random() % 20));
     }

@@ -137,7 +137,8 @@ TEST(Ambient, TheSkyIsThatOfALobe) {
 }
 
 TEST(Ambient, CodesHoldDepthsAndOpenness) {
-    for (float depth = 0.1f; depth < 30.0f; depth *= 1.1f) {
+    for (int i = 0; i < 60; ++i) {
+        const float depth = 0.1f * std::pow(1.1f, static_cast<float>(i));
         const uint32_t code = glsl::ambient_code(depth, 0.4f);
         // Three to a word: this one between others that are full.
         const uint32_t full = glsl::ambient_code(1e30f, 1.0f);

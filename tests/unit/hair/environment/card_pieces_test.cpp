@@ -15,10 +15,9 @@ namespace {
 /// Area seen along x, y and z.
 glm::dvec3 total(const AmbientPieces& pieces) {
     glm::dvec3 sum(0.0);
-    for (const glm::dvec3 strands : pieces.strands) {
-        const glm::dvec3 squared = strands * strands;
-        sum += glm::sqrt(
-            glm::dvec3(squared.y + squared.z, squared.z + squared.x, squared.x + squared.y));
+    for (const StrandArea& strands : pieces.strands) {
+        sum +=
+            glm::dvec3(strands.seen({1, 0, 0}), strands.seen({0, 1, 0}), strands.seen({0, 0, 1}));
     }
     return sum;
 }
@@ -40,7 +39,8 @@ TEST(CardPieces, OfAHalfCoveredCardAddUpToItsStrands) {
     // Samples of columns that are on or off.
     EXPECT_NEAR(area.x, by_hand, 0.03 * by_hand);
     EXPECT_NEAR(area.z, by_hand, 0.03 * by_hand);
-    EXPECT_NEAR(area.y, 0.0, 0.05 * by_hand) << "strands along y show nothing of themselves there";
+    // A byte of the tangent is off by up to 1/254, seen at its root.
+    EXPECT_NEAR(area.y, 0.0, 0.07 * by_hand) << "strands along y show nothing of themselves there";
 }
 
 TEST(CardPieces, OfBuiltCardsHaveTheAreaOfTheirStrands) {

@@ -99,7 +99,8 @@ TEST(DefaultWidth, ComesFromTheFileElseCoversTheSilhouette) {
     Groom bare;
     for (int i = 0; i < 100; ++i) {
         const float x = static_cast<float>(i % 10) / 9.0f;
-        const float z = static_cast<float>(i / 10) / 9.0f;
+        const int row = i / 10;
+        const float z = static_cast<float>(row) / 9.0f;
         bare.points.insert(bare.points.end(), {{x, 1, z}, {x, 0, z}});
         bare.strand_begin.push_back(static_cast<uint32_t>(bare.points.size()));
     }
