@@ -53,9 +53,9 @@ uint32_t mean_opacity(const std::vector<uint32_t>& shape, const Block& block, gl
     return sum / 4;
 }
 
-uint32_t mean_bytes(const std::vector<uint32_t>& words, const Block& block, uint32_t count) {
+uint32_t mean_color(const std::vector<uint32_t>& colors, const Block& block) {
     uint32_t word = 0;
-    for (uint32_t i = 0; i < count; ++i) word |= mean_byte(words, block, i) << (8 * i);
+    for (uint32_t i = 0; i < 3; ++i) word |= mean_byte(colors, block, i) << (8 * i);
     return word;
 }
 
@@ -76,7 +76,7 @@ void add_level(glm::uvec2 below, glm::uvec2 size, size_t first, AtlasLevels& lev
                                       (levels.shape[block.texels[block.strongest]] & 0xffff0000U);
                 levels.strand[texel] = levels.strand[block.texels[block.strongest]];
                 if (!levels.color.empty()) {
-                    levels.color[texel] = mean_bytes(levels.color, block, 3);
+                    levels.color[texel] = mean_color(levels.color, block);
                 }
             }
         }

@@ -12,7 +12,7 @@ struct CardBuffers {
     gpu::Buffer uvs;
     gpu::Buffer triangles;
     gpu::Buffer frames;
-    gpu::Buffer directions;  ///< RowDirections of ribbons
+    gpu::Buffer directions;  ///< row_directions() of ribbons
     gpu::Buffer shape;
     gpu::Buffer strand;
     gpu::Buffer color;

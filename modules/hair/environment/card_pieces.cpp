@@ -68,13 +68,13 @@ glm::vec3 along_at(const CardGroom& cards, uint32_t point) {
     return cards.points[after] - cards.points[before];
 }
 
-/// In the world what a row says in its frame.
-StrandArea in_world(const RowDirections& row, const glm::vec3& across, const glm::vec3& along) {
+/// In the world what is `strands` in the frame of an orthonormal row.
+StrandArea in_world(const StrandArea& strands, const glm::vec3& across, const glm::vec3& along) {
     const glm::mat3 frame(across, along, glm::cross(across, along));
-    const glm::vec3 s = row.squares;
-    const glm::vec3 p = row.products;
-    const glm::mat3 moments(s.x, p.x, p.z, p.x, s.y, p.y, p.z, p.y, s.z);
-    const glm::mat3 m = frame * moments * glm::transpose(frame);
+    const glm::vec3 d = strands.diagonal;
+    const glm::vec3 b = strands.beside;
+    const glm::mat3 m =
+        frame * glm::mat3(d.x, b.x, b.z, b.x, d.y, b.y, b.z, b.y, d.z) * glm::transpose(frame);
     return {{m[0][0], m[1][1], m[2][2]}, {m[0][1], m[1][2], m[2][0]}};
 }
 
@@ -84,8 +84,7 @@ glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
 }
 
 /// Where the strands of the row of `point` lead, of area 1.
-StrandArea strands_at(const CardGroom& cards, const std::vector<RowDirections>& rows,
-                      uint32_t point) {
+StrandArea strands_at(const CardGroom& cards, const std::vector<StrandArea>& rows, uint32_t point) {
     const glm::vec3 along = unit_or(along_at(cards, point), {0, 1, 0});
     if (rows.empty()) return area_along(along, 1.0f);
     const uint32_t left = point - point % 3;
@@ -94,7 +93,7 @@ StrandArea strands_at(const CardGroom& cards, const std::vector<RowDirections>& 
     return in_world(rows[point / 3], across, along);
 }
 
-Facet facet_of(const CardGroom& cards, const std::vector<RowDirections>& rows,
+Facet facet_of(const CardGroom& cards, const std::vector<StrandArea>& rows,
                const glm::uvec3& triangle, float piece) {
     Facet facet;
     float longest = 0.0f;
@@ -137,7 +136,7 @@ void add_facet(const CardAtlas& atlas, const Facet& facet, glm::vec3* at, Strand
 AmbientPieces card_pieces(const CardGroom& cards) {
     const glm::vec3 size = bounds_of(cards).size();
     const float piece = std::max(std::max({size.x, size.y, size.z}) / kPiecesAcross, 1e-6f);
-    const auto rows = cards.ribbons ? row_directions(cards) : std::vector<RowDirections>();
+    const auto rows = cards.ribbons ? row_directions(cards) : std::vector<StrandArea>();
     std::vector<Facet> facets;
     std::vector<size_t> begin = {0};
     for (const glm::uvec3& triangle : cards.triangles) {

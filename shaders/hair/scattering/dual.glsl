@@ -33,20 +33,22 @@ VELLUS_FN HairAverages hair_averages(VELLUS_IN(HairFibre) fibre, HairSurface s, 
     vec3 path_short = exp2(half_log * kPathShort);
     vec3 path_long = exp2(half_log * kPathLong);
     vec3 path_trt = path_short * path_long;
+    // Of a fibre that absorbs nothing: R, then both paths of TT, and TRT.
+    float r_forward = dot(fibre.r_forward, cubic);
+    float r_backward = dot(fibre.r_backward, cubic);
+    vec3 forward = u2 * vec3(dot(fibre.forward[0], q), dot(fibre.forward[1], q), dot(fibre.forward[2], q));
+    vec3 backward = u2 * vec3(dot(fibre.backward[0], q), dot(fibre.backward[1], q), dot(fibre.backward[2], q));
+    // What has turned inside three times and more is what all these leave.
+    float rest = 1.0f - r_forward - r_backward - dot(forward + backward, vec3(1.0f));
+    vec3 residual = path_trt * path_long * (0.5f * clamp(rest, 0.0f, 0.2f));
+
     float reflected = 2.0f * s.specular;
-    float r_forward = reflected * max(dot(fibre.r_forward, cubic), 0.0f);
-    float r_backward = reflected * max(dot(fibre.r_backward, cubic), 0.0f);
-    vec3 tt_forward = max(u2 * (path_short * dot(fibre.forward[0], q) + path_long * dot(fibre.forward[1], q)),
-                          vec3(0.0f));
-    vec3 tt_backward = max(u2 * (path_short * dot(fibre.backward[0], q) + path_long * dot(fibre.backward[1], q)),
-                           vec3(0.0f));
-    vec3 trt_forward = path_trt * max(u2 * dot(fibre.forward[2], q), 0.0f);
-    vec3 trt_backward = path_trt * max(u2 * dot(fibre.backward[2], q), 0.0f);
-    // What has turned inside three times and more, as much as the others leave of light that nothing absorbs.
-    float others = dot(fibre.r_forward + fibre.r_backward, cubic) +
-                   u2 * dot(fibre.forward[0] + fibre.forward[1] + fibre.forward[2] + fibre.backward[0] +
-                            fibre.backward[1] + fibre.backward[2], q);
-    vec3 residual = path_trt * path_long * (0.5f * clamp(1.0f - others, 0.0f, 0.2f));
+    r_forward = reflected * max(r_forward, 0.0f);
+    r_backward = reflected * max(r_backward, 0.0f);
+    vec3 tt_forward = max(path_short * forward.x + path_long * forward.y, vec3(0.0f));
+    vec3 tt_backward = max(path_short * backward.x + path_long * backward.y, vec3(0.0f));
+    vec3 trt_forward = path_trt * max(forward.z, 0.0f);
+    vec3 trt_backward = path_trt * max(backward.z, 0.0f);
     HairAverages a;
     a.forward = clamp(vec3(r_forward) + tt_forward + trt_forward + residual, vec3(1.0e-4f), vec3(0.995f));
     a.backward = clamp(vec3(r_backward) + tt_backward + trt_backward + residual, vec3(1.0e-4f),

@@ -236,19 +236,19 @@ TEST(CardRowsTest, DirectionsAreThoseOfTheStrands) {
         const StrandData strands = strands_of(coils ? coil_lock() : straight, kWidth);
         auto built = build_cards(strands, {.cards = 1, .along_ratio = 1.0f, .tip_scale = 1.0f});
         ASSERT_TRUE(built);
-        const std::vector<RowDirections> rows = row_directions(built->cards);
+        const std::vector<StrandArea> rows = row_directions(built->cards);
         ASSERT_EQ(3 * rows.size(), built->cards.points.size());
         // A helix climbs by 1 / √(1 + (r turn / length)²) of its length.
         const float rise = coils ? kCoilRadius * kCoilTurn / kCoilLength : 0.0f;
         const float along = 1.0f / (1.0f + rise * rise);
         // A row sees a part of a turn, all of them together whole ones.
         float mean = 0.0f;
-        for (const RowDirections& row : rows) {
-            const float sum = row.squares.x + row.squares.y + row.squares.z;
+        for (const StrandArea& row : rows) {
+            const float sum = row.diagonal.x + row.diagonal.y + row.diagonal.z;
             EXPECT_NEAR(sum, 1.0f, 1e-4f);
-            EXPECT_NEAR(row.seen_along({0, 1, 0}), std::sqrt(1.0f - row.squares.y), 1e-4f);
-            EXPECT_GT(row.seen_along({0, 0, 1}), coils ? 0.6f : 0.99f);
-            mean += row.squares.y / static_cast<float>(rows.size());
+            EXPECT_NEAR(row.seen({0, 1, 0}), std::sqrt(row.diagonal.x + row.diagonal.z), 1e-4f);
+            EXPECT_GT(row.seen({0, 0, 1}), coils ? 0.6f : 0.99f);
+            mean += row.diagonal.y / static_cast<float>(rows.size());
         }
         EXPECT_NEAR(mean, along, coils ? 0.1f : 0.01f);
     }
