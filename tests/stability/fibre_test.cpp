@@ -19,7 +19,7 @@ using namespace hair::glsl;  // NOLINT(google-build-using-namespace)
 struct Input {
     HairSurface surface;
     glm::vec3 tangent, to_light, to_view;
-    float shadow;
+    float shadow, behind;
     uint32_t optics;
 };
 
@@ -45,6 +45,7 @@ Input ordinary(Random& random) {
             .to_light = random.direction(),
             .to_view = random.direction(),
             .shadow = static_cast<float>(random.unit()),
+            .behind = static_cast<float>(random.range(0.0, 20.0)),
             .optics = static_cast<uint32_t>(random.bits() % kOptics.size())};
 }
 
@@ -55,7 +56,7 @@ glm::vec3 evaluate(int technique, const Input& p) {
     const HairFrame f = hair_frame(p.tangent, p.to_view);
     const HairEye e = hair_eye(fibre, f);
     if (technique == kScatteringCount) {
-        return dual_scattering(fibre, p.surface, f, e, p.to_light, p.shadow);
+        return dual_scattering(fibre, p.surface, f, e, p.to_light, p.shadow, p.behind);
     }
     return hair_bsdf(technique, fibre, p.surface, f, e, p.to_light);
 }

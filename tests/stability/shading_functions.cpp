@@ -34,7 +34,10 @@ vec3 hair(int function, const ShadingInput& p) {
     const HairFibre fibre = fibre_of(p);
     const HairEye eye = hair_eye(fibre, f);
     if (function < kScatteringCount) return hair_bsdf(function, fibre, s, f, eye, to_light);
-    if (function == 9) return dual_scattering(fibre, s, f, eye, to_light, p.shadow);
+    if (function == 9) {
+        // As many fibres behind as another field of [0, 1] says.
+        return dual_scattering(fibre, s, f, eye, to_light, p.shadow, 60.0f * p.blend);
+    }
     if (function == 10) return karis_scattering(s, f, to_light, p.shadow);
     return karis_direct(s, f, to_light, p.shadow);
 }

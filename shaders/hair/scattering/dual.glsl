@@ -4,8 +4,9 @@
 // n, the mean number of fibres between here and the light, is -ln of the hair's shadow: the shadow's falloff
 // is their number per metre. Around that mean they are Poisson distributed, so that of the light
 // e^(-n) arrives untouched and e^(-n (1 - a_f)) - e^(-n) after forward scattering alone, where Zinke's
-// a_f^n counts whole fibres and takes a density factor. Local backscatter has all orders, A_b = R∞ - a_b
-// (modules/hair/reference/dual_scattering.h), instead of one and three.
+// a_f^n counts whole fibres and takes a density factor; what turns back and on again is added. Local
+// backscatter has all orders, A_b = R∞ - a_b (modules/hair/reference/dual_scattering.h), instead of one
+// and three. Both end where the hair does: a deep opacity map knows how many fibres are behind.
 #ifndef VELLUS_HAIR_DUAL_GLSL
 #define VELLUS_HAIR_DUAL_GLSL
 #include "hair/scattering/azimuthal.glsl"
@@ -67,13 +68,31 @@ VELLUS_FN HairAverages hair_averages(VELLUS_IN(HairFibre) fibre, HairSurface s, 
     return a;
 }
 
-/// R∞ - a_b: what a half space of fibres behind this one sends back, all orders.
-VELLUS_FN vec3 dual_backscatter(vec3 f, vec3 b) {
+/// How fast light of all orders fades by the fibre, Schuster's two streams F' = -(1 - f) F + b B and
+/// -B' = -(1 - f) B + b F: as e^(-k n).
+VELLUS_FN vec3 dual_fading(vec3 f, vec3 b) {
+    vec3 lost = vec3(1.0f) - f;
+    return sqrt(max((lost - b) * (lost + b), vec3(1.0e-8f)));
+}
+
+/// F of a beam, n fibres deep in hair that goes on for `behind` more and then ends; `k` is dual_fading's.
+VELLUS_FN vec3 dual_onward(vec3 f, vec3 b, vec3 k, float n, float behind) {
+    vec3 r = b / (vec3(1.0f) - f + k);
+    vec3 r2 = r * r;
+    vec3 end = exp2(k * (-2.0f * kLog2E * behind));
+    vec3 through = exp2(k * (-kLog2E * n));
+    return through * (vec3(1.0f) - r2 * end) / (vec3(1.0f) - r2 * end * through * through);
+}
+
+/// R - a_b of a fibre with hair behind it: R∞ - a_b where that is a half space, and less where light comes
+/// to an end; `end` in [0, 1] is what the way there and back leaves of light, e^(-2 k behind).
+VELLUS_FN vec3 dual_backscatter(vec3 f, vec3 b, vec3 end) {
     vec3 f2 = f * f;
     vec3 b2 = b * b;
     vec3 root = (vec3(1.0f) - b - f) * (vec3(1.0f) - b + f) * (vec3(1.0f) + b - f) * (vec3(1.0f) + b + f);
-    vec3 all = 2.0f * b / (vec3(1.0f) + b2 - f2 + sqrt(max(root, vec3(0.0f))));
-    return max(all - b, vec3(0.0f));
+    vec3 half_space = 2.0f * b / (vec3(1.0f) + b2 - f2 + sqrt(max(root, vec3(0.0f))));
+    vec3 behind = half_space * (vec3(1.0f) - end) / (vec3(1.0f) - half_space * half_space * end);
+    return f2 * behind / (vec3(1.0f) - b * behind);
 }
 
 /// M of tier B for one lobe of variance v >= 1e-6 around the mirrored inclination `e` turned by `tilt`.
@@ -115,15 +134,18 @@ VELLUS_FN vec3 dual_spread_bsdf(VELLUS_IN(HairFibre) fibre, HairSurface s, HairE
     return vec3(m.x * r) + m.y * tt + m.z * (path_short * path_long * max(trt, 0.0f));
 }
 
-/// Multiple scattering per unit irradiance of the unshadowed beam; `shadow` in [0, 1] is the hair's alone.
+/// Multiple scattering per unit irradiance of the unshadowed beam; `shadow` in [0, 1] is the hair's alone,
+/// `behind` >= 0 the mean number of fibres behind this one, seen from the light.
 VELLUS_FN vec3 dual_scattering(VELLUS_IN(HairFibre) fibre, HairSurface s, HairFrame f, HairEye e,
-                               vec3 to_light, float shadow) {
+                               vec3 to_light, float shadow, float behind) {
     HairAngles a = hair_angles(f, to_light);
     float cos2_t = 1.0f - a.sin_i * a.sin_i * fibre.inverse_index2;
     vec3 half_log = hair_log2_color(s.base_color) * (0.5f * inversesqrt(cos2_t));
     HairAverages m = hair_averages(fibre, s, half_log, a.cos_i);
     float n = min(-log(max(shadow, 1.0e-30f)), kDualMostFibres);
-    vec3 passed = exp2(-kLog2E * n * (vec3(1.0f) - m.forward)) - vec3(exp2(-kLog2E * n));
+    behind = min(behind, kDualMostFibres);
+    vec3 k = dual_fading(m.forward, m.backward);
+    vec3 passed = dual_onward(m.forward, m.backward, k, n, behind) - vec3(exp2(-kLog2E * n));
     passed = max(passed, vec3(0.0f));
 
     // Mean number of forward scatterings of light that had at least one: x / (1 - e^-x), x = n a_f.
@@ -147,9 +169,9 @@ VELLUS_FN vec3 dual_scattering(VELLUS_IN(HairFibre) fibre, HairSurface s, HairFr
                      (through * through * through);
     tilt = clamp(tilt, -kDualMostTilt, kDualMostTilt);
 
-    vec3 back = dual_backscatter(m.forward, m.backward);
+    vec3 back = dual_backscatter(m.forward, m.backward, exp2(k * (-2.0f * kLog2E * behind)));
     float v = deviation * deviation;
-    // Turned back light leaves a half space as from a matt surface, ½ cos φ; light that comes from all of
+    // Turned back light leaves as from a matt surface, ½ cos φ; light that comes from all of
     // the front half as (1 + cos φ) / 2π.
     float lobe_direct = dual_longitudinal(v, tilt, f, a.sin_i, a.cos_i) * max(0.5f * a.cos_phi, 0.0f);
     float lobe_spread = dual_longitudinal(v + spread, tilt, f, a.sin_i, a.cos_i) *

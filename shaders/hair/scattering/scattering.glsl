@@ -44,16 +44,16 @@ VELLUS_FN vec3 hair_bsdf(int technique, VELLUS_IN(HairFibre) fibre, HairSurface 
 }
 
 /// Radiance to the eye per unit irradiance across the beam; `shadow` in [0, 1] is the light that passes the
-/// hair in front (1 = lit).
+/// hair in front (1 = lit), `behind` the optical depth of the hair behind, for dual scattering.
 VELLUS_FN vec3 hair_direct(int technique, int multiple, VELLUS_IN(HairFibre) fibre, HairSurface s,
-                           HairFrame f, HairEye e, vec3 to_light, float shadow) {
+                           HairFrame f, HairEye e, vec3 to_light, float shadow, float behind) {
     vec3 scattered = hair_bsdf(technique, fibre, s, f, e, to_light);
     if (multiple == kMultipleFakeNormal) {
         float sin_i = clamp(dot(f.tangent, to_light), -1.0f, 1.0f);
         scattered += karis_scattering(s, f, to_light, shadow) * safe_sqrt(1.0f - sin_i * sin_i);
     }
     vec3 radiance = scattered * shadow;
-    if (multiple == kMultipleDual) radiance += dual_scattering(fibre, s, f, e, to_light, shadow);
+    if (multiple == kMultipleDual) radiance += dual_scattering(fibre, s, f, e, to_light, shadow, behind);
     return radiance;
 }
 

@@ -42,15 +42,21 @@ layout(binding = 6, scalar) uniform Instance { HairInstance hair; };
 // Where the techniques need no fibre, something else is bound and nothing read.
 layout(binding = 7, scalar) uniform Fibre { HairFibre fibre; };
 
-/// Of the light, what passes the hair in front; `opaque` is what passes everything else.
-float shadow_of(PunctualLight light, vec3 position, out float opaque) {
+/// Of the light, what passes the hair in front; `opaque` is what passes everything else and `behind` the
+/// optical depth of the hair behind.
+float shadow_of(PunctualLight light, vec3 position, out float opaque, out float behind) {
     opaque = 1.0;
+    behind = kDualMostFibres;
     if (kShadow == 0 || light.shadow_tile == kNoShadow) return 1.0;
     float texel = shadow_texel_metres(light, light.hair_texel, light.kind == kLightSun
                                                  ? 1.0
                                                  : distance(light.position, position));
     if (kOpaqueCasters) opaque = opaque_visibility(opaque_shadows, light, position);
-    if (kShadow == 2) return deep_transmittance(light, position, hair.width);
+    if (kShadow == 2) {
+        DeepLight deep = deep_light(light, position, hair.width);
+        behind = deep.behind;
+        return deep.transmittance;
+    }
     return hair_transmittance(light, position, hair.shadow_falloff, hair.shadow_first + texel);
 }
 
@@ -62,9 +68,10 @@ vec3 shade(HairSurface surface, vec3 position, vec3 tangent, AmbientDepths ambie
         vec3 to_light;
         vec3 irradiance = light_irradiance(lights.light[i], position, to_light);
         float opaque;
-        float shadow = shadow_of(lights.light[i], position, opaque);
+        float behind;
+        float shadow = shadow_of(lights.light[i], position, opaque, behind);
         radiance += irradiance * opaque * hair_direct(kScattering, kMultiple, fibre, surface, frame, eye,
-                                             to_light, shadow);
+                                             to_light, shadow, behind);
     }
     if (kEnvironment == 2) {
         mat3 axes = mat3(hair.ambient_axes[0], hair.ambient_axes[1], hair.ambient_axes[2]);

@@ -60,10 +60,71 @@ TEST(Dual, AveragesAreTheReferences) {
             EXPECT_NEAR(a.forward_variance / exact.forward_variance, 1.0, 0.25);
             EXPECT_NEAR(a.backward_variance / exact.backward_variance, 1.0, 0.25);
             const auto back = glsl::dual_backscatter(glm::vec3(static_cast<float>(exact.forward)),
-                                                     glm::vec3(static_cast<float>(exact.backward)));
+                                                     glm::vec3(static_cast<float>(exact.backward)),
+                                                     glm::vec3(0.0f));
             EXPECT_NEAR(back.x, reference::backscatter_all_orders(exact.forward, exact.backward),
                         2e-3);
         }
+    }
+}
+
+TEST(Dual, OnwardLightSolvesTheTwoStreams) {
+    // F' = -(1 - f) F + b B, -B' = -(1 - f) B + b F, stepped from the far end, where B = 0, by the
+    // classic method of fourth order.
+    for (const auto& [f, b] : {std::pair{0.65, 0.3499}, {0.5, 0.3}, {0.3, 0.02}, {0.9, 0.05}}) {
+        for (const double behind : {0.0, 0.5, 3.0, 12.0}) {
+            for (const double n : {0.0, 0.2, 2.0, 8.0}) {
+                constexpr int kSteps = 2000;
+                const auto towards_light = [&, f = f, b = b](const glm::dvec2& flux) {
+                    return glm::dvec2((1.0 - f) * flux.x - b * flux.y,
+                                      b * flux.x - (1.0 - f) * flux.y);
+                };
+                const auto march = [&](glm::dvec2 flux, double fibres) {
+                    const double h = fibres / kSteps;
+                    for (int i = 0; i < kSteps; ++i) {
+                        const auto k1 = towards_light(flux);
+                        const auto k2 = towards_light(flux + 0.5 * h * k1);
+                        const auto k3 = towards_light(flux + 0.5 * h * k2);
+                        const auto k4 = towards_light(flux + h * k3);
+                        flux += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+                    }
+                    return flux;
+                };
+                const glm::dvec2 here = march({1.0, 0.0}, behind);
+                const glm::dvec2 first = march(here, n);
+                const glm::vec3 forward(static_cast<float>(f)), backward(static_cast<float>(b));
+                const auto onward =
+                    glsl::dual_onward(forward, backward, glsl::dual_fading(forward, backward),
+                                      static_cast<float>(n), static_cast<float>(behind));
+                // Floats: 1 - r² of hair that absorbs next to nothing.
+                EXPECT_NEAR(onward.x, here.x / first.x, 2e-4) << f << " " << behind << " " << n;
+            }
+        }
+    }
+}
+
+TEST(Dual, BackscatterEndsWhereTheHairDoes) {
+    for (const auto& [f, b] : {std::pair{0.65, 0.3499}, {0.5, 0.3}, {0.3, 0.02}, {0.8, 0.1}}) {
+        const glm::vec3 forward(static_cast<float>(f)), backward(static_cast<float>(b));
+        const glm::vec3 k = glsl::dual_fading(forward, backward);
+        const auto back = [&](int fibres) {
+            return glsl::dual_backscatter(forward, backward,
+                                          glm::exp(-2.0f * static_cast<float>(fibres) * k))
+                .x;
+        };
+        EXPECT_EQ(back(0), 0.0f);
+        const auto through = [f = f, b = b](double r) { return f * f * r / (1.0 - b * r); };
+        // Whole fibres one behind the other, added one by one, turn back more; as many at random
+        // that absorb nothing, b n / (1 + b n), less.
+        double whole = 0.0;
+        for (int n = 1; n <= 40; ++n) {
+            whole = b + through(whole);
+            EXPECT_LE(back(n), through(whole) + 1e-5) << f << " " << n;
+            EXPECT_GT(back(n), back(n - 1) - 1e-6f) << f << " " << n;
+            if (f + b < 0.99) continue;
+            EXPECT_GE(back(n), through(b * n / (1.0 + b * n)) - 1e-3) << f << " " << n;
+        }
+        EXPECT_NEAR(back(400), reference::backscatter_all_orders(f, b), 2e-3);
     }
 }
 
@@ -103,7 +164,8 @@ TEST(Dual, IsNothingInFrontOfBlackHairAndFiniteEverywhere) {
     const auto fibre = fibre_of(black);
     const auto frame = glsl::hair_frame({1, 0, 0}, {0, 0, 1});
     const auto eye = glsl::hair_eye(fibre, frame);
-    const auto lit = glsl::dual_scattering(fibre, black, frame, eye, {0, 0, 1}, 1.0f);
+    const auto lit =
+        glsl::dual_scattering(fibre, black, frame, eye, {0, 0, 1}, 1.0f, glsl::kDualMostFibres);
     const auto single =
         glsl::series_bsdf(glsl::kLongitudinalB, fibre, black, frame, eye, {0, 0, 1});
     EXPECT_LT(lit.x, 0.05f * single.x);
@@ -122,7 +184,8 @@ TEST(Dual, IsNothingInFrontOfBlackHairAndFiniteEverywhere) {
         const glm::vec3 view = random.bits() % 5 == 0 ? tangent : glm::vec3(random.direction());
         const glm::vec3 light = random.bits() % 5 == 0 ? -tangent : glm::vec3(random.direction());
         const auto at = glsl::hair_frame(tangent, view);
-        const auto value = glsl::dual_scattering(f, s, at, glsl::hair_eye(f, at), light, pick());
+        const auto value =
+            glsl::dual_scattering(f, s, at, glsl::hair_eye(f, at), light, pick(), 100.0f * pick());
         for (int c = 0; c < 3; ++c) {
             ASSERT_TRUE(std::isfinite(value[c]) && value[c] >= 0.0f) << i;
         }
@@ -150,10 +213,11 @@ glm::dvec3 shaded_slab(int scattering, int multiple, const glsl::HairSurface& s,
         const double depth = t * cos_eye;
         const double fibres =
             cos_light > 0.0 ? depth / cos_light : (thickness - depth) / -cos_light;
-        sum +=
-            0.5 * most * rule.weight[i] * std::exp(-t) *
-            glm::dvec3(glsl::hair_direct(scattering, multiple, fibre, s, frame, turned,
-                                         direction(light), static_cast<float>(std::exp(-fibres))));
+        const double behind = thickness / std::abs(cos_light) - fibres;
+        sum += 0.5 * most * rule.weight[i] * std::exp(-t) *
+               glm::dvec3(glsl::hair_direct(scattering, multiple, fibre, s, frame, turned,
+                                            direction(light), static_cast<float>(std::exp(-fibres)),
+                                            static_cast<float>(behind)));
     }
     return sum;
 }

@@ -87,7 +87,7 @@ TEST_F(ScatteringTest, DualScatteringIsItsFunctionOnTheDevice) {
         const auto single = middle(scattering, MultipleTechnique::kNone, to_sun);
         const glm::vec3 exact =
             glsl::hair_direct(static_cast<int>(scattering), glsl::kMultipleDual, fibre, s, frame,
-                              glsl::hair_eye(fibre, frame), to_sun, 1.0f);
+                              glsl::hair_eye(fibre, frame), to_sun, 1.0f, glsl::kDualMostFibres);
         for (int c = 0; c < 3; ++c) {
             EXPECT_NEAR(drawn[c], exact[c], 0.03f * exact[c] + 2e-3f) << c;
             EXPECT_GT(drawn[c], single[c]);

@@ -5,6 +5,7 @@
 
 #include "modules/character/mesh_library.h"
 #include "modules/character/register.h"
+#include "modules/hair/geometry/hair_frame.h"
 #include "modules/scene/instantiate.h"
 #include "tests/support/hair_scene.h"
 
@@ -168,6 +169,73 @@ TEST_F(DeepOpacityTest, SkinBelowASlabGetsWhatPassesAllOfIt) {
     // An optical depth of one. A tenth of a metre behind the closest hair an exponential falloff of
     // 80 per metre leaves nothing.
     EXPECT_NEAR(shaded / lit, std::exp(-1.0), 0.04);
+}
+
+/// Thin strands along x, one every few pixels in one plane, and behind them a slab of which light
+/// from `to_sun` meets `behind` strands.
+TEST_F(DeepOpacityTest, DualScatteringKnowsHowMuchHairIsBehind) {
+    constexpr uint32_t kPixels = 512;
+    const glm::vec3 to_sun = glm::normalize(glm::vec3(0.0f, 0.3f, 1.0f));
+    HairExtension look;
+    look.width.tip_scale = 1.0f;
+    look.material.base_color = look.material.tip_color = glm::vec3(0.9f);
+    look.material.color_variation = 0.0f;
+    std::vector<std::vector<glm::vec3>> rows;
+    for (int i = -10; i <= 10; ++i) {
+        const float y = 0.0043f * static_cast<float>(i);
+        rows.push_back({{-kHalf, y, kFront + 0.005f}, {kHalf, y, kFront + 0.005f}});
+    }
+    const StrandData layer = test::make_strands(rows, 0.0008f);
+    const auto draw_with = [&](float behind, MultipleTechnique multiple) {
+        HairScene scene(device(), kPixels, kPixels);
+        scene.world.resource<light::ShadowSettings>() = {.size = 128, .fit_to_picture = false};
+        scene.world.get<scene::Camera>(scene.camera)->vertical_fov = kFov;
+        scene.add_sun(to_sun);
+        const HairTechniques techniques{.opacity = OpacityTechnique::kDitherStill,
+                                        .shadow = ShadowTechnique::kDeepOpacity,
+                                        .scattering = ScatteringTechnique::kSeriesB,
+                                        .multiple = multiple,
+                                        .environment = EnvironmentTechnique::kNone};
+        scene.add_hair(layer, look, techniques);
+        if (behind > 0.0f) {
+            // slab() counts its strands along y.
+            const float along_y = behind * to_sun.z * kHalf / kThickness;
+            scene.add_hair(slab(along_y, 5), look, techniques);
+        }
+        scene.build();
+        return scene.draw();
+    };
+    const auto alone = draw_with(0.0f, MultipleTechnique::kNone);
+    const HairMaterial material;
+    const glsl::HairSurface surface{glm::vec3(0.9f), 0.5f * material.specular, material.roughness,
+                                    material.scatter, std::sin(material.shift)};
+    glsl::HairFibre fibre{};
+    fit_azimuthal({}, fibre);
+    set_longitudinal(surface.roughness, surface.shift, fibre);
+    std::vector<double> exact, drawn;
+    for (const float behind : {0.0f, 2.0f}) {
+        exact.push_back(0.0);
+        drawn.push_back(0.0);
+        const auto single = draw_with(behind, MultipleTechnique::kNone);
+        const auto dual = draw_with(behind, MultipleTechnique::kDual);
+        for (uint32_t i = 0; i < kPixels * kPixels; ++i) {
+            const glm::vec2 at(i % kPixels, i / kPixels);
+            if (alone[i].g <= 0.0f) continue;
+            if (glm::any(glm::greaterThan(glm::abs(at - 256.0f), glm::vec2(128.0f)))) continue;
+            const glm::vec2 slope = std::tan(kFov / 2) * (2.0f * (at + 0.5f) / 512.0f - 1.0f);
+            const auto frame =
+                glsl::hair_frame({1, 0, 0}, glm::normalize(glm::vec3(-slope.x, slope.y, 1.0f)));
+            const auto value = glsl::dual_scattering(
+                fibre, surface, frame, glsl::hair_eye(fibre, frame), to_sun, 1.0f, behind);
+            drawn.back() += static_cast<double>(dual[i].g - single[i].g);
+            exact.back() += static_cast<double>(value.g);
+        }
+    }
+    // A quarter of what a strand covers of its texel stays in its own layer: 0.07 of a fibre, and
+    // the first fibres count most.
+    const double bound = 0.1 * exact[1];
+    EXPECT_NEAR(drawn[0], exact[0], bound);
+    EXPECT_NEAR(drawn[1], exact[1], bound);
 }
 
 }  // namespace
