@@ -43,7 +43,9 @@ bool is_groom(const asset::SceneAsset& scene) {
 }
 
 Result<LoadedContent> use_default_sky(ContentHost& host) {
-    if (auto made = host.set_environment(light::sky_environment({})); !made) return made.error();
+    light::EnvironmentImage sky = light::sky_environment({});
+    sky.exposure = light::kSkyExposure;
+    if (auto made = host.set_environment(sky); !made) return made.error();
     return LoadedContent{.default_sky = true};
 }
 

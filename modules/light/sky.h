@@ -20,6 +20,10 @@ struct Sky {
     glm::dvec3 ground_albedo{0.42, 0.40, 0.37};
 };
 
+/// Exposure that shows people and landscape under this sky as bright as a photographer would: a white
+/// surface that faces the sun is just beyond white, as skin, cloth and grass reflect far less.
+inline constexpr float kSkyExposure = 1.5f;
+
 struct SunLight {
     glm::vec3 to_sun;
     /// Across the beam, linear RGB.
