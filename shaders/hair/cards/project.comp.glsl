@@ -70,11 +70,32 @@ float seen_squared(uint row, vec3 d) {
 }
 
 /// How many times closer than in the atlas, which faces the card, the strands stand as the eye sees them:
-/// they show more or less of their length, and the tube's axis is foreshortened and `a / h` times as wide.
-float strand_density(uint row, vec3 to_eye, vec3 x, vec3 n, vec3 along, float wider) {
+/// they show more or less of their length, on an area `seen_length` times as long and `1 / wider` as wide.
+float strand_density(uint row, vec3 to_eye, vec3 x, vec3 n, float seen_length, float wider) {
     vec3 d = vec3(dot(to_eye, x), dot(to_eye, cross(n, x)), dot(to_eye, n));
     float seen = sqrt(seen_squared(row, d) / seen_squared(row, vec3(0.0, 0.0, 1.0)));
-    return min(wider * seen / max(length(cross(along, to_eye)), 1.0e-3), kMostDensity);
+    return min(wider * seen / max(seen_length, 1.0e-3), kMostDensity);
+}
+
+/// What the piece of a tube around a row spans that is as long as it is wide; w: metres along it. A tube's
+/// edges turn with its axis no faster than that: seen nearly along it, those of single rows would turn
+/// about each other and sweep many times the area of the tube.
+vec4 piece_around(uint row, vec3 center, float radius) {
+    vec3 from = center, to = center;
+    float walked = 0.0;
+    for (uint i = row; point_parameter(set.parameters, 3u * i) > 0.0; --i) {
+        if (i != row && distance(from, center) > radius) break;
+        vec3 next = row_center(i - 1u);
+        walked += distance(next, from);
+        from = next;
+    }
+    for (uint i = row; point_parameter(set.parameters, 3u * i) < 1.0; ++i) {
+        if (i != row && distance(to, center) > radius) break;
+        vec3 next = row_center(i + 1u);
+        walked += distance(next, to);
+        to = next;
+    }
+    return vec4(to - from, walked);
 }
 
 void ribbon_row(uint row) {
@@ -90,7 +111,9 @@ void ribbon_row(uint row) {
     vec3 x = side / max(a, 1.0e-12), n = front / max(b, 1.0e-12);
 
     vec3 to_eye = direction_to_eye(center);
-    vec3 s = unit_or(cross(along, to_eye), x);
+    vec4 piece = piece_around(row, center, max(a, b));
+    vec3 across_eye = cross(piece.xyz, to_eye);
+    vec3 s = unit_or(across_eye, x);
     float sx = dot(s, x), sn = dot(s, n);
     float h = sqrt(a * a * sx * sx + b * b * sn * sn);
     float inverse_h = 1.0 / max(h, 1.0e-12);
@@ -106,7 +129,8 @@ void ribbon_row(uint row) {
     float widen = min(middle.w, edge.w) > 0.0 ? max(1.0, kLeastHalfWidth / max(pixels, 1.0e-6)) : 1.0;
     drawn *= widen;
     float alpha = 1.0 / widen;
-    float density = strand_density(row, to_eye, x, n, along, a * inverse_h);
+    float seen_length = length(across_eye) / max(piece.w, 1.0e-12);
+    float density = strand_density(row, to_eye, x, n, seen_length, a * inverse_h);
     write_vertex(first, center - drawn, to_eye, toward, along, turned, alpha, density);
     write_vertex(first + 1u, center + drawn, to_eye, toward, along, turned, alpha, density);
 }

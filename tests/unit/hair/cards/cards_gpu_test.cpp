@@ -188,6 +188,27 @@ TEST_F(CardsTest, ARibbonIsAsWideAsItsTubeFromEverySide) {
     }
 }
 
+TEST_F(CardsTest, AShortRibbonSeenAlongItsAxisSweepsNoDisc) {
+    // Fur from within: rows half a width apart or less lead to the eye, and wind about that line by
+    // half a pixel. Edges of each row's own would turn a half circle: an area of 1,250 pixels.
+    CardGroom cards = ribbon({20, 0, 0}, {0, 0, 20});
+    for (uint32_t row = 0; row < 5; ++row) {
+        const float turned = static_cast<float>(row) * 0.8f;
+        const glm::vec3 center(0.5f * std::cos(turned) * kPixel, 0.5f * std::sin(turned) * kPixel,
+                               (2.0f * static_cast<float>(row) - 4.0f) * kPixel - kDistance);
+        cards.points[3 * row] = center - glm::vec3(20, 0, 0) * kPixel;
+        cards.points[3 * row + 1] = center + glm::vec3(20, 0, 0) * kPixel;
+        cards.points[3 * row + 2] = center + glm::vec3(0, 20, 0) * kPixel;
+    }
+    derive_columns(cards);
+    HairScene scene(device(), kSize, kSize);
+    scene.add_sun({0, 0, 1});
+    add(scene, device(), cards, colored(glm::vec3(0.8f)));
+    scene.build();
+    // A tube 40 wide whose axis shows a pixel, and a pixel more around its edge.
+    EXPECT_LT(count_lit(scene.draw()), 41 * 3);
+}
+
 TEST_F(CardsTest, StrandsStandCloserWhereARibbonIsForeshortened) {
     // The ribbon leans towards the eye until it shows half its length. Strands along it show half
     // of theirs too; strands across it show all of theirs, twice as close: 1 - (1 - ½)² of it is
