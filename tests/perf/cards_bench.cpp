@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <string>
@@ -18,7 +21,7 @@ using test::CardViews;
 constexpr int kSides = 8;
 
 struct Options {
-    std::string groom = "assets/grooms/long.hair";
+    std::vector<std::string> grooms{"assets/grooms/long.hair"};
     std::string device;
     std::string pictures;
     uint32_t size = 384;
@@ -67,12 +70,30 @@ void print_passes(const char* title, graph::Executor& executor) {
     fmt::print("\n");
 }
 
-Result<int> compare_sides(gpu::Device& device, const Options& options) {
-    auto strands = test::load_upright_strands(options.groom);
+/// Of all sides, the farthest from the strands, as shares.
+struct Worst {
+    double luminance = 0.0;
+    double silhouette = 0.0;
+    double coverage = 0.0;
+    int bald_blocks = 0;
+    hair::CardReport report;
+
+    void add(const CardComparison& c) {
+        luminance = std::max(luminance, std::abs(c.luminance_error()));
+        silhouette = std::max(silhouette, std::abs(c.silhouette_error()));
+        coverage = std::max(coverage, std::abs(c.coverage_error()));
+        bald_blocks += c.bald_blocks;
+    }
+};
+
+Result<Worst> compare_sides(gpu::Device& device, const Options& options, const std::string& groom) {
+    Worst worst;
+    auto strands = test::load_upright_strands(groom);
     if (!strands) return strands.error();
     auto built = hair::build_cards(*strands, options.build);
     if (!built) return built.error();
-    fmt::print("{}\n", hair::to_text(built->report));
+    worst.report = built->report;
+    fmt::print("{}: {}\n", groom, hair::to_text(built->report));
     auto views = CardViews::create(device, glm::uvec2(options.size * options.finer));
     if (!views) return views.error();
     World& world = (*views)->world();
@@ -105,6 +126,7 @@ Result<int> compare_sides(gpu::Device& device, const Options& options) {
             }
         }
         const CardComparison c = test::compare(pictures[0], pictures[1]);
+        worst.add(c);
         fmt::print(
             "{:>5} {:>10.4f} {:>10.4f} {:>+6.1f}% {:>10.0f} {:>10.0f} {:>+6.1f}% {:>+7.1f}% "
             "{:>5} / {:>3} {:>7.1f} {:>7.1f}\n",
@@ -114,11 +136,22 @@ Result<int> compare_sides(gpu::Device& device, const Options& options) {
         if (options.pictures.empty()) continue;
         const auto exposure = static_cast<float>(0.35 / c.luminance[0]);
         auto saved = asset::save_png(
-            fmt::format("{}/side_{}.png", options.pictures, side),
+            fmt::format("{}/{}_side_{}.png", options.pictures,
+                        std::filesystem::path(groom).stem().string(), side),
             beside(test::to_image(pictures[0], exposure), test::to_image(pictures[1], exposure)));
         if (!saved) return saved.error();
     }
-    return 0;
+    return worst;
+}
+
+/// A line per groom: the worst of its sides, and what its cards cost.
+void print_worst(const std::string& groom, const Worst& worst) {
+    const hair::CardReport& r = worst.report;
+    fmt::print("{:>12} {:>8} {:>6} {:>9.1f}% {:>9.1f}% {:>8.1f}% {:>5} {:>8.1f} {:>8.2f}\n",
+               std::filesystem::path(groom).stem().string(), r.strands, r.cards,
+               100.0 * worst.luminance, 100.0 * worst.silhouette, 100.0 * worst.coverage,
+               worst.bald_blocks, static_cast<double>(r.bytes) / (1U << 20U),
+               r.cluster_seconds + r.fit_seconds + r.bake_seconds);
 }
 
 int run_cards(const Options& options) {
@@ -127,16 +160,27 @@ int run_cards(const Options& options) {
         fmt::print(stderr, "error: {}\n", device.error().message());
         return 1;
     }
-    auto done = compare_sides(**device, options);
-    if (!done) fmt::print(stderr, "error: {}\n", done.error().message());
-    return done ? *done : 1;
+    std::vector<Worst> table;
+    for (const std::string& groom : options.grooms) {
+        auto worst = compare_sides(**device, options, groom);
+        if (!worst) {
+            fmt::print(stderr, "error: {}\n", worst.error().message());
+            return 1;
+        }
+        table.push_back(*worst);
+    }
+    fmt::print("worst of {} sides\n{:>12} {:>8} {:>6} {:>10} {:>10} {:>9} {:>5} {:>8} {:>8}\n",
+               kSides, "groom", "strands", "cards", "luminance", "silhouette", "coverage", "bald",
+               "MiB", "s");
+    for (size_t i = 0; i < table.size(); ++i) print_worst(options.grooms[i], table[i]);
+    return 0;
 }
 
 const Registration kCards(
     {"cards", "cards beside the strands they were built from, from eight sides",
      [](CLI::App& app) -> std::function<int()> {
          auto options = std::make_shared<Options>();
-         app.add_option("--groom", options->groom, "groom file");
+         app.add_option("--groom", options->grooms, "groom files, one table of all at the end");
          app.add_option("--device", options->device, "part of its name");
          app.add_option("--pictures", options->pictures, "folder for pictures: strands, cards");
          app.add_option("--size", options->size, "pixels")->check(CLI::Range(16, 4096));
