@@ -17,7 +17,7 @@ struct CardBuildOptions {
     float along_ratio = 0.2f;
     uint32_t max_texels = 1U << 22U;  ///< of the whole atlas
     uint32_t samples = 4;             ///< per texel and axis, in [1, 16]
-    uint32_t max_rows = 24;           ///< of a card, in [2, 64]
+    uint32_t max_rows = 48;           ///< of a card, in [2, 64]
     float tolerance = 0.001f;         ///< metres between a card's bend and its rows
     float tip_scale = 0.3f;           ///< width left at the strands' tips, as in HairWidth
 };

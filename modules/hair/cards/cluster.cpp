@@ -13,17 +13,24 @@ namespace vellus::hair {
 namespace {
 
 constexpr size_t kPieces = 8;
+/// Of strands that weave, which eight pieces do not see.
+constexpr size_t kFinePieces = 24;
 constexpr size_t kSamplesPerPiece = 4;
+/// Strands of a cluster that are so many times as far apart (squared) in fine pieces weave.
+constexpr double kWeaving = 1.5;
 constexpr int kRounds = 24;
 constexpr size_t kGrain = 128;
 
-using Feature = std::array<float, 3 * kPieces>;
+/// Mean positions of the pieces of a strand.
+template <size_t Pieces>
+using Feature = std::array<float, 3 * Pieces>;
 
-Feature feature_of(const StrandData& strands, size_t strand) {
-    Feature feature{};
-    for (size_t i = 0; i < kPieces * kSamplesPerPiece; ++i) {
+template <size_t Pieces>
+Feature<Pieces> feature_of(const StrandData& strands, size_t strand) {
+    Feature<Pieces> feature{};
+    for (size_t i = 0; i < Pieces * kSamplesPerPiece; ++i) {
         const float fraction =
-            (static_cast<float>(i) + 0.5f) / static_cast<float>(kPieces * kSamplesPerPiece);
+            (static_cast<float>(i) + 0.5f) / static_cast<float>(Pieces * kSamplesPerPiece);
         const glm::vec3 p = strand_position(strands, strand, fraction);
         float* piece = &feature[i / kSamplesPerPiece * 3];
         for (int axis = 0; axis < 3; ++axis) piece[axis] += p[axis] / kSamplesPerPiece;
@@ -31,6 +38,16 @@ Feature feature_of(const StrandData& strands, size_t strand) {
     return feature;
 }
 
+template <size_t Pieces>
+std::vector<Feature<Pieces>> features_of(const StrandData& strands) {
+    std::vector<Feature<Pieces>> features(strands.strand_count());
+    parallel_ranges(features.size(), kGrain, [&](size_t first, size_t end) {
+        for (size_t i = first; i < end; ++i) features[i] = feature_of<Pieces>(strands, i);
+    });
+    return features;
+}
+
+template <class Feature>
 float squared_distance(const Feature& a, const Feature& b) {
     float sum = 0.0f;
     for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
@@ -38,6 +55,7 @@ float squared_distance(const Feature& a, const Feature& b) {
 }
 
 /// Strands that lie farthest from each other, from the one farthest from the mean on.
+template <class Feature>
 std::vector<Feature> farthest_strands(const std::vector<Feature>& features, uint32_t count) {
     std::vector<float> nearest(features.size(), std::numeric_limits<float>::max());
     std::vector<Feature> chosen;
@@ -64,6 +82,7 @@ std::vector<Feature> farthest_strands(const std::vector<Feature>& features, uint
 }
 
 /// Labels each strand with the closest centre; true where any label changed.
+template <class Feature>
 bool assign(const std::vector<Feature>& features, const std::vector<Feature>& centers,
             std::vector<uint32_t>& labels, std::vector<float>& distances) {
     std::vector<uint8_t> changed(features.size(), 0);
@@ -87,9 +106,10 @@ bool assign(const std::vector<Feature>& features, const std::vector<Feature>& ce
 
 /// Centres to the means of their strands; one that lost all of them takes the strand that lies
 /// farthest from its own.
+template <class Feature>
 void move_centers(const std::vector<Feature>& features, const std::vector<uint32_t>& labels,
                   std::vector<float>& distances, std::vector<Feature>& centers) {
-    std::vector<std::array<double, 3 * kPieces>> sums(centers.size());
+    std::vector<std::array<double, std::tuple_size_v<Feature>>> sums(centers.size());
     std::vector<uint32_t> counts(centers.size(), 0);
     for (size_t i = 0; i < features.size(); ++i) {
         ++counts[labels[i]];
@@ -119,24 +139,44 @@ void renumber(std::vector<uint32_t>& labels, size_t centers) {
     }
 }
 
-}  // namespace
-
-std::vector<uint32_t> cluster_strands(const StrandData& strands, uint32_t count) {
-    const size_t strand_count = strands.strand_count();
-    std::vector<uint32_t> labels(strand_count, 0);
-    if (strand_count == 0 || count <= 1) return labels;
-    std::vector<Feature> features(strand_count);
-    parallel_ranges(strand_count, kGrain, [&](size_t first, size_t end) {
-        for (size_t i = first; i < end; ++i) features[i] = feature_of(strands, i);
-    });
+/// Lloyd's k-means.
+template <class Feature>
+std::vector<uint32_t> k_means(const std::vector<Feature>& features, uint32_t count) {
+    std::vector<uint32_t> labels(features.size(), 0);
     std::vector<Feature> centers = farthest_strands(features, count);
-    std::vector<float> distances(strand_count);
+    std::vector<float> distances(features.size());
     for (int round = 0; round < kRounds; ++round) {
         if (!assign(features, centers, labels, distances) && round > 0) break;
         move_centers(features, labels, distances, centers);
     }
     assign(features, centers, labels, distances);
     renumber(labels, centers.size());
+    return labels;
+}
+
+/// Mean square distance of pieces from the mean of their cluster's.
+template <class Feature>
+double spread(const std::vector<Feature>& features, const std::vector<uint32_t>& labels) {
+    std::vector<float> distances(features.size(), 0.0f);
+    std::vector<Feature> centers(1 + *std::ranges::max_element(labels));
+    move_centers(features, labels, distances, centers);
+    double sum = 0.0;
+    for (size_t i = 0; i < features.size(); ++i) {
+        sum += static_cast<double>(squared_distance(features[i], centers[labels[i]]));
+    }
+    return 3.0 * sum / static_cast<double>(features.size() * std::tuple_size_v<Feature>);
+}
+
+}  // namespace
+
+std::vector<uint32_t> cluster_strands(const StrandData& strands, uint32_t count) {
+    if (strands.strand_count() == 0 || count <= 1) {
+        return std::vector<uint32_t>(strands.strand_count(), 0);
+    }
+    const auto features = features_of<kPieces>(strands);
+    std::vector<uint32_t> labels = k_means(features, count);
+    const auto fine = features_of<kFinePieces>(strands);
+    if (spread(fine, labels) > kWeaving * spread(features, labels)) labels = k_means(fine, count);
     return labels;
 }
 
