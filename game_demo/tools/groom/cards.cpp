@@ -64,7 +64,10 @@ Action attach(CLI::App& app) {
         ->required()
         ->type_name("CARDS");
     hair::CardBuildOptions& build = options->build;
-    app.add_option("--cards", build.cards, "At most this many")->capture_default_str();
+    app.add_option(
+           "--cards", build.cards,
+           "At most this many (0: 300, or 1200 where those would be stout, as of coils and fur)")
+        ->capture_default_str();
     app.add_option("--density", build.texels_per_metre,
                    "Texels per metre across the cards; 0: one per strand width")
         ->capture_default_str();

@@ -10,7 +10,8 @@ namespace vellus::hair {
 
 /// What cards to build from strands.
 struct CardBuildOptions {
-    uint32_t cards = 300;  ///< at most this many, in [1, 65536]
+    /// At most this many, in [1, 65536]; 0: 300, and four times as many where cards would be stout.
+    uint32_t cards = 0;
     /// Texels across the cards per metre; 0: one per strand width. Fewer where `max_texels` asks.
     float texels_per_metre = 0.0f;
     /// Texels along the cards for each across them: strands change slowly along their length.
@@ -26,6 +27,8 @@ struct CardBuildOptions {
 struct CardReport {
     size_t strands = 0;
     size_t cards = 0;
+    /// Mean half thickness over mean length: from about 0.11 on too few cards hold the strands.
+    float stoutness = 0.0f;
     size_t triangles = 0;
     glm::uvec2 atlas_size{0};
     float texels_per_metre = 0.0f;  ///< across the cards

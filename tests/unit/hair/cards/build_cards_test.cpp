@@ -4,6 +4,7 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
+#include <numbers>
 #include <numeric>
 #include <set>
 
@@ -13,6 +14,7 @@
 #include "modules/hair/cards/pack.h"
 #include "modules/hair/cards/row_directions.h"
 #include "modules/hair/cards/strand_path.h"
+#include "tests/support/sampling.h"
 #include "tests/unit/hair/cards/card_strands.h"
 
 // Cards against what is known of the strands they stand for: area, place, direction.
@@ -28,6 +30,11 @@ std::vector<uint32_t> all_of(const StrandData& strands) {
     std::vector<uint32_t> members(strands.strand_count());
     std::iota(members.begin(), members.end(), 0U);
     return members;
+}
+
+void add_strand(Groom& groom, const std::vector<glm::vec3>& points) {
+    groom.points.insert(groom.points.end(), points.begin(), points.end());
+    groom.strand_begin.push_back(static_cast<uint32_t>(groom.points.size()));
 }
 
 Groom head_of_locks(int locks, int strands_each) {
@@ -73,6 +80,33 @@ TEST(CardClusterTest, NoClusterIsEmptyEvenWhenAskedForMoreThanThereAreStrands) {
 
 /// Where a strand is on the drawn surface of the ribbon, by projecting it on the plane of the
 /// closest quad: the share of points that lie inside the quad's outline.
+TEST(CardClusterTest, StrandsThatWeaveTogetherStayTogether) {
+    // Three bundles about one axis that change places once in each eighth of their length, so that
+    // the means of eight pieces are all the same.
+    constexpr uint32_t kBundles = 3;
+    Groom groom;
+    for (uint32_t strand = 0; strand < 90; ++strand) {
+        vellus::test::Random random(3, strand);
+        const double turned = 2.0 * std::numbers::pi * (strand % kBundles) / kBundles;
+        const glm::dvec3 root(random.range(-0.002, 0.002), 0.0, random.range(-0.002, 0.002));
+        std::vector<glm::vec3> points;
+        for (int i = 0; i <= 256; ++i) {
+            const double t = i / 256.0;
+            const double phase = 16.0 * std::numbers::pi * t + turned;
+            points.emplace_back(
+                root + glm::dvec3(0.01 * std::sin(phase), -0.4 * t, 0.005 * std::sin(2.0 * phase)));
+        }
+        add_strand(groom, points);
+    }
+    const StrandData strands = strands_of(groom, kWidth);
+    const std::vector<uint32_t> labels = cluster_strands(strands, kBundles);
+    std::vector<std::set<uint32_t>> labels_of_bundle(kBundles);
+    for (size_t strand = 0; strand < labels.size(); ++strand) {
+        labels_of_bundle[strands.strand_source[strand] % kBundles].insert(labels[strand]);
+    }
+    for (const auto& bundle : labels_of_bundle) EXPECT_EQ(bundle.size(), 1U);
+}
+
 TEST(CardRibbonTest, HoldsEveryStrandWithItsWidth) {
     for (const float curl : {0.0f, 0.004f}) {
         Groom groom;
@@ -310,6 +344,29 @@ TEST(CardBakeTest, TheNearerStrandIsSeen) {
     EXPECT_EQ(card.opacity[middle], 255);
 }
 
+TEST(CardBuildTest, StoutCardsBecomeMore) {
+    for (const float length : {0.3f, 0.015f}) {
+        Groom groom;
+        for (uint32_t strand = 0; strand < 2000; ++strand) {
+            vellus::test::Random random(4, strand);
+            const glm::vec3 root(random.range(-0.15, 0.15), 0.0, random.range(-0.15, 0.15));
+            add_strand(groom, {root, root + glm::vec3(0.0f, 0.5f * length, 0.0f),
+                               root + glm::vec3(0.0f, length, 0.0f)});
+        }
+        const StrandData strands = strands_of(groom, kWidth);
+        const auto chosen = build_cards(strands, {.max_texels = 1U << 16U});
+        const auto few = build_cards(strands, {.cards = 300, .max_texels = 1U << 16U});
+        ASSERT_TRUE(chosen && few);
+        // 300 squares that tile the ground have half a side of 0.0087 m, which seven strands in
+        // each do not fill.
+        EXPECT_LT(few->report.stoutness * length, 0.0087f);
+        EXPECT_GT(few->report.stoutness * length, 0.003f);
+        EXPECT_EQ(few->report.cards, 300U);
+        EXPECT_EQ(chosen->report.cards, length > 0.1f ? 300U : 1200U);
+        EXPECT_LE(chosen->report.stoutness, few->report.stoutness);
+    }
+}
+
 TEST(CardBuildTest, TheSameBytesOnAnyNumberOfCores) {
     const StrandData strands = strands_of(head_of_locks(12, 40), kWidth);
     auto first = build_cards(strands, {.cards = 24});
@@ -356,7 +413,7 @@ TEST(CardBuildTest, SaysWhatIsWrong) {
         return built ? std::string() : built.error().message();
     };
     EXPECT_NE(message(StrandData{}, {}).find("no strands"), std::string::npos);
-    EXPECT_NE(message(strands, {.cards = 0}).find("1 to 65536"), std::string::npos);
+    EXPECT_NE(message(strands, {.cards = 65537}).find("1 to 65536"), std::string::npos);
     EXPECT_NE(message(strands, {.along_ratio = 2.0f}).find("0.01 to 1"), std::string::npos);
     EXPECT_NE(message(strands, {.samples = 0}).find("1 to 16"), std::string::npos);
     EXPECT_NE(message(strands, {.max_rows = 1}).find("2 to 64"), std::string::npos);
