@@ -38,7 +38,7 @@ float shadow(PunctualLight light, vec3 n, vec3 to_light) {
     float visible = opaque_visibility(opaque_shadows, light, p);
     if (kHairShadows == 0) return visible;
     // As the hair itself does: by how much of it is in front, where layers hold that.
-    if (kHairShadows == 2) return visible > 0.0 ? visible * deep_transmittance(light, p, 0.0) : 0.0;
+    if (kHairShadows == 2) return visible > 0.0 ? visible * deep_transmittance(light, deep_point(light, p, 0.0)) : 0.0;
     return visible > 0.0 ? visible * hair_transmittance(light, p, hair_falloff, 0.0) : 0.0;
 }
 

@@ -53,9 +53,9 @@ float shadow_of(PunctualLight light, vec3 position, out float opaque, out float 
                                                  : distance(light.position, position));
     if (kOpaqueCasters) opaque = opaque_visibility(opaque_shadows, light, position);
     if (kShadow == 2) {
-        DeepLight deep = deep_light(light, position, hair.width);
-        behind = deep.behind;
-        return deep.transmittance;
+        DeepPoint at = deep_point(light, position, hair.width);
+        if (kMultiple == kMultipleDual) behind = deep_behind(light, at);
+        return deep_transmittance(light, at);
     }
     return hair_transmittance(light, position, hair.shadow_falloff, hair.shadow_first + texel);
 }

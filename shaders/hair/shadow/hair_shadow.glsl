@@ -34,66 +34,72 @@ float hair_transmittance(PunctualLight light, vec3 p, float falloff, float first
     return pcf_box_filter(fract(texel), q[0], q[1], q[2], q[3]);
 }
 
-/// Optical depth in one texel's layers in front of a fragment `metres` from the light (x) and behind it
-/// (y). The strand that it lies on, which covers `own` of the texel, is on neither side of itself.
-vec2 deep_optical_depths(PunctualLight light, ivec2 texel, float metres, float own) {
+/// Optical depth in one texel's layers in front of a fragment `metres` from the light. The strand that
+/// it lies on, which covers `own` of the texel, is not in front of itself.
+float deep_optical_depth(PunctualLight light, ivec2 texel, float metres, float own) {
     uint word = uint(texel.y * int(light.layers_size) + texel.x) * kDeepWords;
     float front = shadow_metres(light, light.hair_range, uintBitsToFloat(light.hair_layers.at[word]));
     float before = float(light.hair_layers.at[word + kDeepBefore]);
-    float depth = metres - front;
-    DeepPlace place = deep_place(max(depth, 0.0), light.layers_span);
-    float sum = before;
-    float rest = 0.0;
-    for (uint k = 0u; k < kDeepLayers; ++k) {
-        float layer = float(light.hair_layers.at[word + kDeepFirst + k]);
-        if (k < place.layer) sum += layer;
-        if (k > place.layer) rest += layer;
-        if (k == place.layer) {
-            layer = max(layer - own * kDeepUnit, 0.0);
-            sum += place.share * layer;
-            rest += (1.0 - place.share) * layer;
-        }
-    }
-    if (depth < 0.0) {
+    float behind = metres - front;
+    if (behind < 0.0) {
         // How what lies before the front is spread is unknown: as over the first layer.
         float first = 2.0 / float(kDeepLayers * (kDeepLayers - 1u)) * light.layers_span;
-        sum = before * saturate(1.0 + depth / first);
-        rest += before - sum;
+        return before * saturate(1.0 + behind / first) * (1.0 / kDeepUnit);
     }
-    return vec2(sum, rest) * (1.0 / kDeepUnit);
+    DeepPlace place = deep_place(behind, light.layers_span);
+    float sum = before;
+    for (uint k = 0u; k < place.layer; ++k) sum += float(light.hair_layers.at[word + kDeepFirst + k]);
+    float layer = float(light.hair_layers.at[word + kDeepFirst + place.layer]);
+    sum += place.share * max(layer - own * kDeepUnit, 0.0);
+    return sum * (1.0 / kDeepUnit);
 }
 
-/// What a deep opacity map knows of a point.
-struct DeepLight {
-    float transmittance;  // [0, 1] from the light
-    float behind;  // optical depth of the hair that the point has behind it
+/// Where a deep opacity map sees a point: texels around it, its depth, and what its own strand covers.
+struct DeepPoint {
+    vec2 texel;  // negative where the light has no layers or does not see it
+    float metres;
+    float own;
 };
 
-/// Through a deep opacity map to `p`; `width` of the strand there in metres.
-DeepLight deep_light(PunctualLight light, vec3 p, float width) {
+DeepPoint deep_point(PunctualLight light, vec3 p, float width) {
     vec2 uv;
     float depth;
     if (uint64_t(light.hair_layers) == 0ul || !shadow_position(light.to_hair, p, uv, depth)) {
-        return DeepLight(1.0, 0.0);
+        return DeepPoint(vec2(-1.0), 0.0, 0.0);
     }
     float metres = shadow_metres(light, light.hair_range, depth);
-    float own = 0.75 * deep_optical_depth_of(width / (2.0 * shadow_texel_metres(light, light.hair_texel, metres)));
-    vec2 texel = uv * float(light.layers_size) - 0.5;
+    float cover = width / (2.0 * shadow_texel_metres(light, light.hair_texel, metres));
+    return DeepPoint(uv * float(light.layers_size), metres, 0.75 * deep_optical_depth_of(cover));
+}
+
+/// Transmittance in [0, 1] from the light to a point.
+float deep_transmittance(PunctualLight light, DeepPoint at) {
+    if (at.texel.x < 0.0) return 1.0;
+    vec2 texel = at.texel - 0.5;
     ivec2 low = max(ivec2(floor(texel)), ivec2(0));
     ivec2 high = min(ivec2(floor(texel)) + 1, ivec2(int(light.layers_size) - 1));
     vec2 f = fract(texel);
-    vec2 a = deep_optical_depths(light, low, metres, own);
-    vec2 b = deep_optical_depths(light, ivec2(high.x, low.y), metres, own);
-    vec2 c = deep_optical_depths(light, ivec2(low.x, high.y), metres, own);
-    vec2 d = deep_optical_depths(light, high, metres, own);
-    vec4 weight = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-    return DeepLight(dot(weight, exp(-vec4(a.x, b.x, c.x, d.x))), dot(weight, vec4(a.y, b.y, c.y, d.y)));
+    vec4 through = exp(-vec4(deep_optical_depth(light, low, at.metres, at.own),
+                             deep_optical_depth(light, ivec2(high.x, low.y), at.metres, at.own),
+                             deep_optical_depth(light, ivec2(low.x, high.y), at.metres, at.own),
+                             deep_optical_depth(light, high, at.metres, at.own)));
+    return mix(mix(through.x, through.y, f.x), mix(through.z, through.w, f.x), f.y);
 }
 
-/// Transmittance in [0, 1] from the light to `p` through a deep opacity map; `width` of the strand there
-/// in metres.
-float deep_transmittance(PunctualLight light, vec3 p, float width) {
-    return deep_light(light, p, width).transmittance;
+/// Optical depth of the hair that a point has behind it, of the closest texel: what it is for varies
+/// slowly.
+float deep_behind(PunctualLight light, DeepPoint at) {
+    if (at.texel.x < 0.0) return 0.0;
+    ivec2 texel = min(ivec2(at.texel), ivec2(int(light.layers_size) - 1));
+    uint word = uint(texel.y * int(light.layers_size) + texel.x) * kDeepWords;
+    float front = shadow_metres(light, light.hair_range, uintBitsToFloat(light.hair_layers.at[word]));
+    DeepPlace place = deep_place(max(at.metres - front, 0.0), light.layers_span);
+    float layer = float(light.hair_layers.at[word + kDeepFirst + place.layer]);
+    float sum = (1.0 - place.share) * max(layer - at.own * kDeepUnit, 0.0);
+    for (uint k = place.layer + 1u; k < kDeepLayers; ++k) {
+        sum += float(light.hair_layers.at[word + kDeepFirst + k]);
+    }
+    return sum * (1.0 / kDeepUnit);
 }
 
 #endif
