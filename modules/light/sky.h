@@ -20,8 +20,9 @@ struct Sky {
     glm::dvec3 ground_albedo{0.42, 0.40, 0.37};
 };
 
-/// Exposure that shows people and landscape under this sky as bright as a photographer would: a white
-/// surface that faces the sun is just beyond white, as skin, cloth and grass reflect far less.
+/// Exposure that shows people and landscape under this sky as bright as a photographer would: a
+/// white surface that faces the sun is just beyond white, as skin, cloth and grass reflect far
+/// less.
 inline constexpr float kSkyExposure = 1.5f;
 
 struct SunLight {
@@ -34,9 +35,10 @@ struct SunLight {
 /// Kasten and Young 1989), scaled to Sky::sun_irradiance.
 SunLight sky_sun(const Sky& sky);
 
-/// The sky without the sun's disc as an equirectangular image. Luminance is that of the CIE standard
-/// clear sky, type 12 (Darula and Kittler 2002); colour that of light scattered once by clean air
-/// (Rayleigh, λ⁻⁴): blue above, white at the horizon; below, the ground as sun and sky light it.
+/// The sky without the sun's disc as an equirectangular image. Luminance is that of the CIE
+/// standard clear sky, type 12 (Darula and Kittler 2002); colour that of light scattered once by
+/// clean air (Rayleigh, λ⁻⁴): blue above, white at the horizon; below, the ground as sun and sky
+/// light it.
 asset::ImageF render_sky(const Sky& sky, uint32_t width, uint32_t height);
 
 }  // namespace vellus::light
