@@ -190,7 +190,7 @@ const Registration kCards(
              ->check(CLI::Range(1.0, 100.0));
          app.add_option("--finer", options->finer, "draws so many times as fine and averages")
              ->check(CLI::Range(1, 16));
-         app.add_option("--cards", options->build.cards, "most cards to build");
+         app.add_option("--cards", options->build.cards, "most cards to build (0: chosen)");
          app.add_option("--density", options->build.texels_per_metre, "texels per metre across");
          app.add_option("--along", options->build.along_ratio, "texels along for each across");
          app.add_option("--tolerance", options->build.tolerance, "metres a card may cut a bend");

@@ -36,7 +36,7 @@ vec3 hair(int function, const ShadingInput& p) {
     if (function < kScatteringCount) return hair_bsdf(function, fibre, s, f, eye, to_light);
     if (function == 9) {
         // As many fibres behind as another field of [0, 1] says.
-        return dual_scattering(fibre, s, f, eye, to_light, p.shadow, 60.0f * p.blend);
+        return dual_scattering(fibre, s, f, eye, to_light, p.shadow, kDualMostFibres * p.blend);
     }
     if (function == 10) return karis_scattering(s, f, to_light, p.shadow);
     return karis_direct(s, f, to_light, p.shadow);

@@ -75,17 +75,19 @@ VELLUS_FN vec3 dual_fading(vec3 f, vec3 b) {
     return sqrt(max((lost - b) * (lost + b), vec3(1.0e-8f)));
 }
 
-/// F of a beam, n fibres deep in hair that goes on for `behind` more and then ends; `k` is dual_fading's.
-VELLUS_FN vec3 dual_onward(vec3 f, vec3 b, vec3 k, float n, float behind) {
+/// What fading leaves on the way through `behind` fibres and back.
+VELLUS_FN vec3 dual_end(vec3 k, float behind) { return exp2(k * (-2.0f * kLog2E * behind)); }
+
+/// F of a beam, n fibres deep in hair that ends further on; `k` is dual_fading's, `end` dual_end's.
+VELLUS_FN vec3 dual_onward(vec3 f, vec3 b, vec3 k, float n, vec3 end) {
     vec3 r = b / (vec3(1.0f) - f + k);
     vec3 r2 = r * r;
-    vec3 end = exp2(k * (-2.0f * kLog2E * behind));
     vec3 through = exp2(k * (-kLog2E * n));
     return through * (vec3(1.0f) - r2 * end) / (vec3(1.0f) - r2 * end * through * through);
 }
 
 /// R - a_b of a fibre with hair behind it: R∞ - a_b where that is a half space, and less where light comes
-/// to an end; `end` in [0, 1] is what the way there and back leaves of light, e^(-2 k behind).
+/// to an end; `end` is dual_end's, 0 for a half space.
 VELLUS_FN vec3 dual_backscatter(vec3 f, vec3 b, vec3 end) {
     vec3 f2 = f * f;
     vec3 b2 = b * b;
@@ -143,9 +145,9 @@ VELLUS_FN vec3 dual_scattering(VELLUS_IN(HairFibre) fibre, HairSurface s, HairFr
     vec3 half_log = hair_log2_color(s.base_color) * (0.5f * inversesqrt(cos2_t));
     HairAverages m = hair_averages(fibre, s, half_log, a.cos_i);
     float n = min(-log(max(shadow, 1.0e-30f)), kDualMostFibres);
-    behind = min(behind, kDualMostFibres);
     vec3 k = dual_fading(m.forward, m.backward);
-    vec3 passed = dual_onward(m.forward, m.backward, k, n, behind) - vec3(exp2(-kLog2E * n));
+    vec3 end = dual_end(k, min(behind, kDualMostFibres));
+    vec3 passed = dual_onward(m.forward, m.backward, k, n, end) - vec3(exp2(-kLog2E * n));
     passed = max(passed, vec3(0.0f));
 
     // Mean number of forward scatterings of light that had at least one: x / (1 - e^-x), x = n a_f.
@@ -169,7 +171,7 @@ VELLUS_FN vec3 dual_scattering(VELLUS_IN(HairFibre) fibre, HairSurface s, HairFr
                      (through * through * through);
     tilt = clamp(tilt, -kDualMostTilt, kDualMostTilt);
 
-    vec3 back = dual_backscatter(m.forward, m.backward, exp2(k * (-2.0f * kLog2E * behind)));
+    vec3 back = dual_backscatter(m.forward, m.backward, end);
     float v = deviation * deviation;
     // Turned back light leaves as from a matt surface, ½ cos φ; light that comes from all of
     // the front half as (1 + cos φ) / 2π.

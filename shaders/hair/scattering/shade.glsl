@@ -54,7 +54,7 @@ float shadow_of(PunctualLight light, vec3 position, out float opaque, out float 
     if (kOpaqueCasters) opaque = opaque_visibility(opaque_shadows, light, position);
     if (kShadow == 2) {
         DeepPoint at = deep_point(light, position, hair.width);
-        if (kMultiple == kMultipleDual) behind = deep_behind(light, at);
+        if (kMultiple == kMultipleDual && deep_knows(at)) behind = deep_behind(light, at);
         return deep_transmittance(light, at);
     }
     return hair_transmittance(light, position, hair.shadow_falloff, hair.shadow_first + texel);

@@ -72,9 +72,11 @@ DeepPoint deep_point(PunctualLight light, vec3 p, float width) {
     return DeepPoint(uv * float(light.layers_size), metres, 0.75 * deep_optical_depth_of(cover));
 }
 
+bool deep_knows(DeepPoint at) { return at.texel.x >= 0.0; }
+
 /// Transmittance in [0, 1] from the light to a point.
 float deep_transmittance(PunctualLight light, DeepPoint at) {
-    if (at.texel.x < 0.0) return 1.0;
+    if (!deep_knows(at)) return 1.0;
     vec2 texel = at.texel - 0.5;
     ivec2 low = max(ivec2(floor(texel)), ivec2(0));
     ivec2 high = min(ivec2(floor(texel)) + 1, ivec2(int(light.layers_size) - 1));
@@ -86,10 +88,9 @@ float deep_transmittance(PunctualLight light, DeepPoint at) {
     return mix(mix(through.x, through.y, f.x), mix(through.z, through.w, f.x), f.y);
 }
 
-/// Optical depth of the hair that a point has behind it, of the closest texel: what it is for varies
-/// slowly.
+/// Optical depth of the hair that a point which the map knows has behind it, of the closest texel: what
+/// it is for varies slowly.
 float deep_behind(PunctualLight light, DeepPoint at) {
-    if (at.texel.x < 0.0) return 0.0;
     ivec2 texel = min(ivec2(at.texel), ivec2(int(light.layers_size) - 1));
     uint word = uint(texel.y * int(light.layers_size) + texel.x) * kDeepWords;
     float front = shadow_metres(light, light.hair_range, uintBitsToFloat(light.hair_layers.at[word]));

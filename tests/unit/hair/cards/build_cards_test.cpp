@@ -78,8 +78,6 @@ TEST(CardClusterTest, NoClusterIsEmptyEvenWhenAskedForMoreThanThereAreStrands) {
     }
 }
 
-/// Where a strand is on the drawn surface of the ribbon, by projecting it on the plane of the
-/// closest quad: the share of points that lie inside the quad's outline.
 TEST(CardClusterTest, StrandsThatWeaveTogetherStayTogether) {
     // Three bundles about one axis that change places once in each eighth of their length, so that
     // the means of eight pieces are all the same.
@@ -107,6 +105,8 @@ TEST(CardClusterTest, StrandsThatWeaveTogetherStayTogether) {
     for (const auto& bundle : labels_of_bundle) EXPECT_EQ(bundle.size(), 1U);
 }
 
+/// Where a strand is on the drawn surface of the ribbon, by projecting it on the plane of the
+/// closest quad: the share of points that lie inside the quad's outline.
 TEST(CardRibbonTest, HoldsEveryStrandWithItsWidth) {
     for (const float curl : {0.0f, 0.004f}) {
         Groom groom;

@@ -93,9 +93,10 @@ TEST(Dual, OnwardLightSolvesTheTwoStreams) {
                 const glm::dvec2 here = march({1.0, 0.0}, behind);
                 const glm::dvec2 first = march(here, n);
                 const glm::vec3 forward(static_cast<float>(f)), backward(static_cast<float>(b));
+                const glm::vec3 k = glsl::dual_fading(forward, backward);
                 const auto onward =
-                    glsl::dual_onward(forward, backward, glsl::dual_fading(forward, backward),
-                                      static_cast<float>(n), static_cast<float>(behind));
+                    glsl::dual_onward(forward, backward, k, static_cast<float>(n),
+                                      glsl::dual_end(k, static_cast<float>(behind)));
                 // Floats: 1 - r² of hair that absorbs next to nothing.
                 EXPECT_NEAR(onward.x, here.x / first.x, 2e-4) << f << " " << behind << " " << n;
             }
@@ -108,9 +109,8 @@ TEST(Dual, BackscatterEndsWhereTheHairDoes) {
         const glm::vec3 forward(static_cast<float>(f)), backward(static_cast<float>(b));
         const glm::vec3 k = glsl::dual_fading(forward, backward);
         const auto back = [&](int fibres) {
-            return glsl::dual_backscatter(forward, backward,
-                                          glm::exp(-2.0f * static_cast<float>(fibres) * k))
-                .x;
+            const auto end = glsl::dual_end(k, static_cast<float>(fibres));
+            return glsl::dual_backscatter(forward, backward, end).x;
         };
         EXPECT_EQ(back(0), 0.0f);
         const auto through = [f = f, b = b](double r) { return f * f * r / (1.0 - b * r); };

@@ -175,6 +175,7 @@ TEST_F(DeepOpacityTest, SkinBelowASlabGetsWhatPassesAllOfIt) {
 /// from `to_sun` meets `behind` strands.
 TEST_F(DeepOpacityTest, DualScatteringKnowsHowMuchHairIsBehind) {
     constexpr uint32_t kPixels = 512;
+    constexpr float kMiddle = 0.5f * kPixels;
     const glm::vec3 to_sun = glm::normalize(glm::vec3(0.0f, 0.3f, 1.0f));
     HairExtension look;
     look.width.tip_scale = 1.0f;
@@ -221,8 +222,9 @@ TEST_F(DeepOpacityTest, DualScatteringKnowsHowMuchHairIsBehind) {
         for (uint32_t i = 0; i < kPixels * kPixels; ++i) {
             const glm::vec2 at(i % kPixels, i / kPixels);
             if (alone[i].g <= 0.0f) continue;
-            if (glm::any(glm::greaterThan(glm::abs(at - 256.0f), glm::vec2(128.0f)))) continue;
-            const glm::vec2 slope = std::tan(kFov / 2) * (2.0f * (at + 0.5f) / 512.0f - 1.0f);
+            if (glm::any(glm::greaterThan(glm::abs(at - kMiddle), glm::vec2(0.5f * kMiddle))))
+                continue;
+            const glm::vec2 slope = std::tan(kFov / 2) * ((at + 0.5f) / kMiddle - 1.0f);
             const auto frame =
                 glsl::hair_frame({1, 0, 0}, glm::normalize(glm::vec3(-slope.x, slope.y, 1.0f)));
             const auto value = glsl::dual_scattering(
