@@ -169,7 +169,11 @@ void Window::poll(double wait_seconds) {
 
 void Window::poll_gamepad() {
     GLFWgamepadstate state;
-    input_.gamepad.connected = glfwGetGamepadState(GLFW_JOYSTICK_1, &state) == GLFW_TRUE;
+    // Whatever has an axis takes a joystick's place; the first that is a gamepad counts.
+    input_.gamepad.connected = false;
+    for (int i = GLFW_JOYSTICK_1; i <= GLFW_JOYSTICK_LAST && !input_.gamepad.connected; ++i) {
+        input_.gamepad.connected = glfwGetGamepadState(i, &state) == GLFW_TRUE;
+    }
     // One that is unplugged lets everything go.
     if (!input_.gamepad.connected) state = {};
     for (size_t i = 0; i < input_.gamepad.buttons.size(); ++i) {
