@@ -22,6 +22,7 @@ constexpr int kSides = 8;
 
 struct Options {
     std::vector<std::string> grooms{"assets/grooms/long.hair"};
+    std::string body;
     std::string device;
     std::string pictures;
     uint32_t size = 384;
@@ -45,9 +46,7 @@ asset::Image beside(const asset::Image& left, const asset::Image& right) {
 
 /// Means over blocks of `factor` x `factor` pixels.
 CardPicture reduce(const CardPicture& fine, uint32_t factor) {
-    CardPicture picture{.size = fine.size / factor};
-    picture.color.assign(size_t{picture.size.x} * picture.size.y, glm::vec3(0.0f));
-    picture.coverage.assign(picture.color.size(), 0.0f);
+    CardPicture picture = CardPicture::blank(fine.size / factor);
     const float share = 1.0f / static_cast<float>(factor * factor);
     for (size_t i = 0; i < fine.color.size(); ++i) {
         const size_t x = i % fine.size.x / factor;
@@ -55,6 +54,8 @@ CardPicture reduce(const CardPicture& fine, uint32_t factor) {
         if (x >= picture.size.x || y >= picture.size.y) continue;
         picture.color[y * picture.size.x + x] += share * fine.color[i];
         picture.coverage[y * picture.size.x + x] += share * fine.coverage[i];
+        picture.body[y * picture.size.x + x] += share * fine.body[i];
+        picture.alone[y * picture.size.x + x] += share * fine.alone[i];
     }
     return picture;
 }
@@ -74,6 +75,7 @@ void print_passes(const char* title, graph::Executor& executor) {
 struct Worst {
     double luminance = 0.0;
     double silhouette = 0.0;
+    double outline = 0.0;
     double coverage = 0.0;
     int bald_blocks = 0;
     hair::CardReport report;
@@ -81,6 +83,7 @@ struct Worst {
     void add(const CardComparison& c) {
         luminance = std::max(luminance, std::abs(c.luminance_error()));
         silhouette = std::max(silhouette, std::abs(c.silhouette_error()));
+        outline = std::max(outline, std::abs(c.outline_error()));
         coverage = std::max(coverage, std::abs(c.coverage_error()));
         bald_blocks += c.bald_blocks;
     }
@@ -96,6 +99,9 @@ Result<Worst> compare_sides(gpu::Device& device, const Options& options, const s
     fmt::print("{}: {}\n", groom, hair::to_text(built->report));
     auto views = CardViews::create(device, glm::uvec2(options.size * options.finer));
     if (!views) return views.error();
+    if (!options.body.empty()) {
+        if (auto worn = (*views)->wear_on(options.body); !worn) return worn.error();
+    }
     World& world = (*views)->world();
     auto strand_groom = hair::add_strands(world, device, "strands", *strands, {});
     if (!strand_groom) return strand_groom.error();
@@ -108,8 +114,9 @@ Result<Worst> compare_sides(gpu::Device& device, const Options& options, const s
                static_cast<double>(library.grooms[*card_groom].strands.bytes() +
                                    library.grooms[*card_groom].cards.bytes()) /
                    (1U << 20U));
-    fmt::print("{:>5} {:>21} {:>7} {:>21} {:>7} {:>8} {:>11} {:>15}\n", "side", "mean luminance",
-               "error", "silhouette px", "error", "coverage", "bald blocks", "CPU ms a frame");
+    fmt::print("{:>5} {:>21} {:>7} {:>21} {:>7} {:>8} {:>8} {:>11} {:>15}\n", "side",
+               "mean luminance", "error", "silhouette px", "error", "outline", "coverage",
+               "bald blocks", "CPU ms a frame");
     for (int side = 0; side < kSides; ++side) {
         const double yaw = side * 2.0 * std::numbers::pi / kSides;
         CardPicture pictures[2];
@@ -129,10 +136,11 @@ Result<Worst> compare_sides(gpu::Device& device, const Options& options, const s
         worst.add(c);
         fmt::print(
             "{:>5} {:>10.4f} {:>10.4f} {:>+6.1f}% {:>10.0f} {:>10.0f} {:>+6.1f}% {:>+7.1f}% "
-            "{:>5} / {:>3} {:>7.1f} {:>7.1f}\n",
+            "{:>+7.1f}% {:>5} / {:>3} {:>7.1f} {:>7.1f}\n",
             side, c.luminance[0], c.luminance[1], 100.0 * c.luminance_error(), c.silhouette[0],
-            c.silhouette[1], 100.0 * c.silhouette_error(), 100.0 * c.coverage_error(),
-            c.bald_blocks, c.full_blocks, milliseconds[0], milliseconds[1]);
+            c.silhouette[1], 100.0 * c.silhouette_error(), 100.0 * c.outline_error(),
+            100.0 * c.coverage_error(), c.bald_blocks, c.full_blocks, milliseconds[0],
+            milliseconds[1]);
         if (options.pictures.empty()) continue;
         const auto exposure = static_cast<float>(0.35 / c.luminance[0]);
         auto saved = asset::save_png(
@@ -147,11 +155,12 @@ Result<Worst> compare_sides(gpu::Device& device, const Options& options, const s
 /// A line per groom: the worst of its sides, and what its cards cost.
 void print_worst(const std::string& groom, const Worst& worst) {
     const hair::CardReport& r = worst.report;
-    fmt::print("{:>12} {:>8} {:>6} {:>9.1f}% {:>9.1f}% {:>8.1f}% {:>5} {:>8.1f} {:>8.2f}\n",
-               std::filesystem::path(groom).stem().string(), r.strands, r.cards,
-               100.0 * worst.luminance, 100.0 * worst.silhouette, 100.0 * worst.coverage,
-               worst.bald_blocks, static_cast<double>(r.bytes) / (1U << 20U),
-               r.cluster_seconds + r.fit_seconds + r.bake_seconds);
+    fmt::print(
+        "{:>12} {:>8} {:>6} {:>9.1f}% {:>9.1f}% {:>7.1f}% {:>8.1f}% {:>5} {:>8.1f} {:>8.2f}\n",
+        std::filesystem::path(groom).stem().string(), r.strands, r.cards, 100.0 * worst.luminance,
+        100.0 * worst.silhouette, 100.0 * worst.outline, 100.0 * worst.coverage, worst.bald_blocks,
+        static_cast<double>(r.bytes) / (1U << 20U),
+        r.cluster_seconds + r.fit_seconds + r.bake_seconds);
 }
 
 int run_cards(const Options& options) {
@@ -169,9 +178,10 @@ int run_cards(const Options& options) {
         }
         table.push_back(*worst);
     }
-    fmt::print("worst of {} sides\n{:>12} {:>8} {:>6} {:>10} {:>10} {:>9} {:>5} {:>8} {:>8}\n",
-               kSides, "groom", "strands", "cards", "luminance", "silhouette", "coverage", "bald",
-               "MiB", "s");
+    fmt::print(
+        "worst of {} sides\n{:>12} {:>8} {:>6} {:>10} {:>10} {:>8} {:>9} {:>5} {:>8} {:>8}\n",
+        kSides, "groom", "strands", "cards", "luminance", "silhouette", "outline", "coverage",
+        "bald", "MiB", "s");
     for (size_t i = 0; i < table.size(); ++i) print_worst(options.grooms[i], table[i]);
     return 0;
 }
@@ -181,6 +191,7 @@ const Registration kCards(
      [](CLI::App& app) -> std::function<int()> {
          auto options = std::make_shared<Options>();
          app.add_option("--groom", options->grooms, "groom files, one table of all at the end");
+         app.add_option("--body", options->body, "glTF file whose meshes wear the grooms");
          app.add_option("--device", options->device, "part of its name");
          app.add_option("--pictures", options->pictures, "folder for pictures: strands, cards");
          app.add_option("--size", options->size, "pixels")->check(CLI::Range(16, 4096));

@@ -4,9 +4,12 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "engine/asset/gltf.h"
 #include "engine/asset/image_io.h"
 #include "engine/frame_graph/context.h"
 #include "engine/frame_graph/execute.h"
+#include "modules/character/mesh_library.h"
+#include "modules/character/register.h"
 #include "modules/display/register.h"
 #include "modules/hair/cards/add_cards.h"
 #include "modules/hair/cards/build_cards.h"
@@ -20,6 +23,7 @@
 #include "modules/light/load_environment.h"
 #include "modules/light/register.h"
 #include "modules/scene/camera.h"
+#include "modules/scene/instantiate.h"
 #include "modules/scene/register.h"
 #include "modules/scene/render_frame.h"
 #include "modules/temporal/register.h"
@@ -27,15 +31,24 @@
 
 namespace vellus::test {
 
-/// Linear colour over black, and the share of each pixel that hair covers, as means over frames.
+/// Linear colour of hair over black, the shares of each pixel that show hair and the body that
+/// wears it, and what hair would cover without a body; means over frames.
 struct CardPicture {
     glm::uvec2 size{0};
     std::vector<glm::vec3> color;
     std::vector<float> coverage;
+    std::vector<float> body;
+    std::vector<float> alone;
+
+    static CardPicture blank(glm::uvec2 size) {
+        const size_t pixels = size_t{size.x} * size.y;
+        const std::vector<float> none(pixels, 0.0f);
+        return {size, std::vector(pixels, glm::vec3(0.0f)), none, none, none};
+    }
 };
 
-/// One groom alone under the default sun and sky; pictures of it from any side, its dither
-/// averaged.
+/// One groom under the default sun and sky, alone or on a body; pictures of it from any side, its
+/// dither averaged.
 class CardViews {
   public:
     static Result<std::unique_ptr<CardViews>> create(gpu::Device& device, glm::uvec2 size) {
@@ -57,22 +70,37 @@ class CardViews {
     /// Shows another groom of the world's library from now on.
     void show(uint32_t groom) { world_.get<hair::Hair>(hair_)->groom = groom; }
 
+    /// Puts the meshes of a glTF file under the hair, in its upright metres.
+    Result<void> wear_on(const std::filesystem::path& file) {
+        auto body = asset::load_gltf(file);
+        if (!body) return body.error();
+        auto worn =
+            scene::instantiate(world_, std::make_shared<const asset::SceneAsset>(std::move(*body)));
+        if (!worn) return worn.error();
+        return world_.resource<character::MeshLibrary>().update(
+            device_, world_.resource<scene::SceneLibrary>());
+    }
+
     /// From `yaw` radians around, a camera that just frames `points`, moved away `distance` times.
     Result<CardPicture> draw(const std::vector<glm::vec3>& points, double yaw, double distance,
                              int frames) {
         place_camera(points, yaw, distance);
-        CardPicture picture{.size = size_};
-        picture.color.assign(size_t{size_.x} * size_.y, glm::vec3(0.0f));
-        picture.coverage.assign(picture.color.size(), 0.0f);
+        CardPicture picture = CardPicture::blank(size_);
+        const float share = 1.0f / static_cast<float>(frames);
         for (int frame = 0; frame < frames; ++frame) {
             if (auto drawn = draw_frame(); !drawn) return drawn.error();
             const auto* halves = reinterpret_cast<const uint64_t*>(color_.mapped());
             const auto* keys = reinterpret_cast<const uint64_t*>(visibility_.mapped());
+            const auto* opaque = reinterpret_cast<const float*>(depth_.mapped());
             for (size_t i = 0; i < picture.color.size(); ++i) {
-                if (keys[i] == 0) continue;
-                picture.color[i] +=
-                    glm::vec3(glm::unpackHalf4x16(halves[i])) / static_cast<float>(frames);
-                picture.coverage[i] += 1.0f / static_cast<float>(frames);
+                const auto hair = std::bit_cast<float>(static_cast<uint32_t>(keys[i] >> 32U));
+                if (keys[i] != 0) picture.alone[i] += share;
+                if (hair > opaque[i]) {
+                    picture.color[i] += share * glm::vec3(glm::unpackHalf4x16(halves[i]));
+                    picture.coverage[i] += share;
+                } else if (opaque[i] > 0.0f) {
+                    picture.body[i] += share;
+                }
             }
         }
         return picture;
@@ -84,7 +112,9 @@ class CardViews {
     Result<void> set_up() {
         if (auto done = scene::insert_render_frame(world_, device_); !done) return done;
         scene::register_scene(world_, schedule_);
+        character::register_character(world_, schedule_);
         light::register_light(world_, schedule_);
+        character::register_character_passes(world_, schedule_);
         hair::register_hair(world_, schedule_);
         temporal::register_temporal(world_, schedule_);
         display::register_display(world_, schedule_);
@@ -102,9 +132,11 @@ class CardViews {
         auto executor = graph::Executor::create(device_, scene::kFramesInFlight);
         if (!executor) return executor.error();
         executor_ = std::move(*executor);
-        const uint64_t bytes = uint64_t{8} * size_.x * size_.y;
-        for (gpu::Buffer* buffer : {&color_, &visibility_}) {
-            auto made = gpu::Buffer::create(device_, bytes, gpu::MemoryKind::kReadback, "readback");
+        const uint64_t pixels = uint64_t{size_.x} * size_.y;
+        for (const auto& [buffer, bytes] :
+             {std::pair{&color_, 8}, {&visibility_, 8}, {&depth_, 4}}) {
+            auto made = gpu::Buffer::create(device_, pixels * bytes, gpu::MemoryKind::kReadback,
+                                            "readback");
             if (!made) return made.error();
             *buffer = std::move(*made);
         }
@@ -134,28 +166,37 @@ class CardViews {
         auto& frame = world_.resource<scene::RenderFrame>();
         if (frame.error) return *frame.error;
         const auto visibility = world_.resource<hair::HairFrame>().visibility;
-        auto color = frame.graph.import_buffer("readback", {color_.bytes()}, &color_,
-                                               graph::Access::kNone, graph::Access::kHostRead);
-        auto keys = frame.graph.import_buffer("readback keys", {visibility_.bytes()}, &visibility_,
-                                              graph::Access::kNone, graph::Access::kHostRead);
         auto pass = frame.graph.add_pass("test/readback", graph::PassKind::kTransfer);
+        const auto into = [&](gpu::Buffer& buffer) {
+            auto imported =
+                frame.graph.import_buffer("readback", {buffer.bytes()}, &buffer,
+                                          graph::Access::kNone, graph::Access::kHostRead);
+            imported = pass.write(imported, graph::Access::kTransferWrite, graph::Load::kDiscard);
+            frame.graph.output(imported);
+            return imported;
+        };
+        const auto color = into(color_);
+        const auto keys = into(visibility_);
+        const auto depth = into(depth_);
         pass.read(frame.color, graph::Access::kTransferRead);
         pass.read(visibility, graph::Access::kTransferRead);
-        color = pass.write(color, graph::Access::kTransferWrite, graph::Load::kDiscard);
-        keys = pass.write(keys, graph::Access::kTransferWrite, graph::Load::kDiscard);
-        pass.execute([picture = frame.color, visibility, color, keys, size = size_,
-                      bytes = visibility_.bytes()](graph::PassContext& context) {
+        pass.read(frame.depth, graph::Access::kTransferRead);
+        pass.execute([picture = frame.color, opaque = frame.depth, visibility, color, keys, depth,
+                      size = size_, bytes = visibility_.bytes()](graph::PassContext& context) {
             VkCommandBuffer commands = context.commands().handle();
-            const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                           .imageExtent = {size.x, size.y, 1}};
-            vkCmdCopyImageToBuffer(commands, context.image(picture),
-                                   VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, context.buffer(color), 1,
-                                   &region);
+            const auto copy = [&](graph::ImageHandle image, VkImageAspectFlags aspect,
+                                  graph::BufferHandle to) {
+                const VkBufferImageCopy region{.imageSubresource = {aspect, 0, 0, 1},
+                                               .imageExtent = {size.x, size.y, 1}};
+                vkCmdCopyImageToBuffer(commands, context.image(image),
+                                       VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, context.buffer(to), 1,
+                                       &region);
+            };
+            copy(picture, VK_IMAGE_ASPECT_COLOR_BIT, color);
+            copy(opaque, VK_IMAGE_ASPECT_DEPTH_BIT, depth);
             const VkBufferCopy whole{.size = bytes};
             vkCmdCopyBuffer(commands, context.buffer(visibility), context.buffer(keys), 1, &whole);
         });
-        frame.graph.output(color);
-        frame.graph.output(keys);
         if (auto done = executor_->execute(frame.graph); !done) return done;
         ++world_.resource<scene::FixedStep>().frame;
         return executor_->wait();
@@ -170,6 +211,7 @@ class CardViews {
     std::unique_ptr<graph::Executor> executor_;
     gpu::Buffer color_;
     gpu::Buffer visibility_;
+    gpu::Buffer depth_;
 };
 
 /// A groom file's strands upright and in metres, as scenes load it.
@@ -184,8 +226,9 @@ inline Result<hair::StrandData> load_upright_strands(const std::filesystem::path
 /// How two pictures of the same groom compare; shares are of the first one.
 struct CardComparison {
     double luminance[2] = {};   ///< mean over the covered area
-    double silhouette[2] = {};  ///< pixels at least half covered
-    double coverage[2] = {};    ///< pixels, by share
+    double silhouette[2] = {};  ///< pixels at least half covered by hair alone, without a body
+    double outline[2] = {};     ///< pixels at least half covered by hair or the body
+    double coverage[2] = {};    ///< pixels of hair in view, by share
     /// Blocks of 8 x 8 pixels that the first covers by at least 0.9 and the second by less than
     /// 0.6.
     int bald_blocks = 0;
@@ -193,6 +236,8 @@ struct CardComparison {
 
     [[nodiscard]] double luminance_error() const { return luminance[1] / luminance[0] - 1.0; }
     [[nodiscard]] double silhouette_error() const { return silhouette[1] / silhouette[0] - 1.0; }
+    /// A body makes the outline larger, not the error smaller: a share of the hair's silhouette.
+    [[nodiscard]] double outline_error() const { return (outline[1] - outline[0]) / silhouette[0]; }
     [[nodiscard]] double coverage_error() const { return coverage[1] / coverage[0] - 1.0; }
 };
 
@@ -204,7 +249,9 @@ inline CardComparison compare(const CardPicture& strands, const CardPicture& car
         for (size_t i = 0; i < pictures[k]->color.size(); ++i) {
             sum += glm::dot(glm::dvec3(pictures[k]->color[i]), glm::dvec3(0.2126, 0.7152, 0.0722));
             result.coverage[k] += pictures[k]->coverage[i];
-            result.silhouette[k] += pictures[k]->coverage[i] >= 0.5f ? 1.0 : 0.0;
+            const float covered = pictures[k]->coverage[i] + pictures[k]->body[i];
+            result.outline[k] += covered >= 0.5f ? 1.0 : 0.0;
+            result.silhouette[k] += pictures[k]->alone[i] >= 0.5f ? 1.0 : 0.0;
         }
         result.luminance[k] = sum / std::max(result.coverage[k], 1e-9);
     }

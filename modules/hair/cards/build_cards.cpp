@@ -158,12 +158,18 @@ Result<void> check(const StrandData& strands, const CardBuildOptions& options) {
 constexpr uint32_t kFewCards = 300;
 /// Of short hair, which 300 cards carry, 0.10; of fur and coils, which they do not, 0.13 and 0.20.
 constexpr float kStout = 0.11f;
+constexpr uint32_t kCardsOfStout = 1200;
+/// Of a braid 1.8 and of a ponytail 2.1, whose cards at the tie cover a head too little; of all
+/// hair that hangs at most 1.1.
+constexpr float kGathered = 1.4f;
+constexpr uint32_t kCardsOfGathered = 900;
 
 /// Clusters of strands and a ribbon for each.
 struct Fit {
     Members members;
     std::vector<Ribbon> ribbons;
     float stoutness = 0.0f;
+    float gathering = 0.0f;
     double cluster_seconds = 0.0;
     double fit_seconds = 0.0;
 };
@@ -180,6 +186,22 @@ float stoutness(const std::vector<Ribbon>& ribbons) {
     return static_cast<float>(thickness / std::max(length, 1e-9));
 }
 
+/// How many times as wide as on average over their length cards are at their roots.
+float gathering(const std::vector<Ribbon>& ribbons) {
+    double sum = 0.0;
+    for (const Ribbon& ribbon : ribbons) {
+        const std::vector<RibbonRow>& rows = ribbon.rows;
+        double area = 0.0;
+        for (size_t i = 0; i + 1 < rows.size(); ++i) {
+            area += static_cast<double>((rows[i].half_width + rows[i + 1].half_width) *
+                                        (rows[i + 1].distance - rows[i].distance));
+        }
+        const auto root = static_cast<double>(rows[1].half_width);
+        sum += root * 2.0 * static_cast<double>(ribbon.length()) / std::max(area, 1e-12);
+    }
+    return static_cast<float>(sum / static_cast<double>(ribbons.size()));
+}
+
 Fit fit_cards(const StrandData& strands, uint32_t count, const CardBuildOptions& options) {
     Fit fit;
     const double start = wall_seconds();
@@ -193,6 +215,7 @@ Fit fit_cards(const StrandData& strands, uint32_t count, const CardBuildOptions&
         }
     });
     fit.stoutness = stoutness(fit.ribbons);
+    fit.gathering = gathering(fit.ribbons);
     fit.cluster_seconds = clustered - start;
     fit.fit_seconds = wall_seconds() - clustered;
     return fit;
@@ -201,8 +224,9 @@ Fit fit_cards(const StrandData& strands, uint32_t count, const CardBuildOptions&
 Fit fit_as_asked(const StrandData& strands, const CardBuildOptions& options) {
     if (options.cards > 0) return fit_cards(strands, options.cards, options);
     Fit few = fit_cards(strands, kFewCards, options);
-    if (few.stoutness < kStout) return few;
-    Fit many = fit_cards(strands, 4 * kFewCards, options);
+    const bool stout = few.stoutness >= kStout;
+    if (!stout && few.gathering < kGathered) return few;
+    Fit many = fit_cards(strands, stout ? kCardsOfStout : kCardsOfGathered, options);
     many.cluster_seconds += few.cluster_seconds;
     many.fit_seconds += few.fit_seconds;
     return many;
@@ -232,11 +256,12 @@ void bake_all(const StrandData& strands, const Members& members, const std::vect
 std::string to_text(const CardReport& report) {
     return fmt::format(
         "{} strands -> {} cards, {} triangles, atlas {} x {} ({:.0f} texels per metre across), "
-        "{:.1f} MiB, half thickness {:.2f} of length; clustered in {:.2f} s, fitted in {:.2f} s, "
+        "{:.1f} MiB, half thickness {:.2f} of length, roots {:.1f} times as wide; clustered in "
+        "{:.2f} s, fitted in {:.2f} s, "
         "baked in {:.2f} s",
         report.strands, report.cards, report.triangles, report.atlas_size.x, report.atlas_size.y,
         report.texels_per_metre, static_cast<double>(report.bytes) / (1U << 20U), report.stoutness,
-        report.cluster_seconds, report.fit_seconds, report.bake_seconds);
+        report.gathering, report.cluster_seconds, report.fit_seconds, report.bake_seconds);
 }
 
 Result<CardBuild> build_cards(const StrandData& strands, const CardBuildOptions& options) {
@@ -256,6 +281,7 @@ Result<CardBuild> build_cards(const StrandData& strands, const CardBuildOptions&
     build.report = {.strands = strands.strand_count(),
                     .cards = build.cards.card_count(),
                     .stoutness = fit.stoutness,
+                    .gathering = fit.gathering,
                     .triangles = build.cards.triangles.size(),
                     .atlas_size = {build.cards.atlas.width, build.cards.atlas.height},
                     .texels_per_metre = static_cast<float>(density),

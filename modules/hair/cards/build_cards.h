@@ -10,7 +10,8 @@ namespace vellus::hair {
 
 /// What cards to build from strands.
 struct CardBuildOptions {
-    /// At most this many, in [1, 65536]; 0: 300, and four times as many where cards would be stout.
+    /// At most this many, in [1, 65536]; 0: 300, or 1,200 where those would be stout, or 900 where
+    /// hair is gathered (CardReport).
     uint32_t cards = 0;
     /// Texels across the cards per metre; 0: one per strand width. Fewer where `max_texels` asks.
     float texels_per_metre = 0.0f;
@@ -29,6 +30,9 @@ struct CardReport {
     size_t cards = 0;
     /// Mean half thickness over mean length: from about 0.11 on too few cards hold the strands.
     float stoutness = 0.0f;
+    /// Mean width at the roots over that along the whole card: from about 1.4 on hair is gathered,
+    /// and few cards are too coarse for the head under it.
+    float gathering = 0.0f;
     size_t triangles = 0;
     glm::uvec2 atlas_size{0};
     float texels_per_metre = 0.0f;  ///< across the cards

@@ -367,6 +367,29 @@ TEST(CardBuildTest, StoutCardsBecomeMore) {
     }
 }
 
+TEST(CardBuildTest, GatheredHairGetsMoreCards) {
+    // Straight strands that keep this share of their distances at their tips.
+    for (const float kept : {1.0f, 0.0f}) {
+        Groom groom;
+        for (uint32_t strand = 0; strand < 2000; ++strand) {
+            vellus::test::Random random(4, strand);
+            const glm::vec3 root(random.range(-0.1, 0.1), 0.0, random.range(-0.1, 0.1));
+            const glm::vec3 tip = kept * root + glm::vec3(0.0f, 0.4f, 0.0f);
+            add_strand(groom, {root, 0.5f * (root + tip), tip});
+        }
+        const StrandData strands = strands_of(groom, kWidth);
+        const auto chosen = build_cards(strands, {.max_texels = 1U << 16U});
+        const auto few = build_cards(strands, {.cards = 300, .max_texels = 1U << 16U});
+        ASSERT_TRUE(chosen && few);
+        // Rows are an eighth of the length apart and as wide as the strands at the row before, so
+        // the mean width is that of an eighth nearer to the root.
+        const float mean = 0.5f * (1.0f + kept) + 0.125f * (1.0f - kept);
+        EXPECT_NEAR(few->report.gathering, 1.0f / mean, 0.03f);
+        EXPECT_EQ(few->report.cards, 300U);
+        EXPECT_EQ(chosen->report.cards, kept > 0.0f ? 300U : 900U);
+    }
+}
+
 TEST(CardBuildTest, TheSameBytesOnAnyNumberOfCores) {
     const StrandData strands = strands_of(head_of_locks(12, 40), kWidth);
     auto first = build_cards(strands, {.cards = 24});

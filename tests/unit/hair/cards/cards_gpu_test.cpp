@@ -4,6 +4,8 @@
 
 #include "modules/hair/cards/add_cards.h"
 #include "modules/hair/cards/card_columns.h"
+#include "modules/hair/grow/grow.h"
+#include "modules/hair/grow/region.h"
 #include "tests/support/card_views.h"
 #include "tests/support/hair_scene.h"
 
@@ -344,26 +346,22 @@ TEST_F(CardsTest, SteadyFramesMakeNothingAndAreTheSame) {
     EXPECT_GT(count_lit(pictures[0]), 1000u);
 }
 
-/// Long hair as strands and as the cards built from them, seen from around.
-class LongHairTest : public test::GpuTest {
+/// A groom as strands and as the cards built from them, seen from around.
+class BesideStrandsTest : public test::GpuTest {
   protected:
-    void SetUp() override {
-        GpuTest::SetUp();
-        const std::filesystem::path groom =
-            std::filesystem::path(VELLUS_SOURCE_DIR) / "assets/grooms/long.hair";
-        const auto strands = test::load_upright_strands(groom);
-        ASSERT_TRUE(strands) << strands.error().message();
-        const auto built = build_cards(*strands, {});
+    void add(const StrandData& strands, const CardBuildOptions& options) {
+        const auto built = build_cards(strands, options);
         ASSERT_TRUE(built) << built.error().message();
         auto views = CardViews::create(device(), glm::uvec2(224));
         ASSERT_TRUE(views);
         views_ = *std::move(views);
-        const auto strand_groom = add_strands(world(), device(), "strands", *strands, {});
+        const auto strand_groom = add_strands(world(), device(), "strands", strands, {});
         const auto card_groom = add_cards(world(), device(), "cards", built->cards);
         ASSERT_TRUE(strand_groom && card_groom);
         strands_ = *strand_groom;
         cards_ = *card_groom;
     }
+    CardViews& views() { return *views_; }
     World& world() { return views_->world(); }
     Entity hair() { return views_->hair(); }
     test::CardComparison compare_from(double yaw) {
@@ -380,6 +378,18 @@ class LongHairTest : public test::GpuTest {
     std::unique_ptr<CardViews> views_;
     uint32_t strands_ = 0;
     uint32_t cards_ = 0;
+};
+
+class LongHairTest : public BesideStrandsTest {
+  protected:
+    void SetUp() override {
+        GpuTest::SetUp();
+        const std::filesystem::path groom =
+            std::filesystem::path(VELLUS_SOURCE_DIR) / "assets/grooms/long.hair";
+        const auto strands = test::load_upright_strands(groom);
+        ASSERT_TRUE(strands) << strands.error().message();
+        ASSERT_NO_FATAL_FAILURE(add(*strands, {}));
+    }
 };
 
 TEST_F(LongHairTest, CardsReadAsTheirStrandsFromEightSides) {
@@ -400,6 +410,40 @@ TEST_F(LongHairTest, CardsKeepAsMuchOfTheSkyAsTheirStrands) {
         // Without depths cards are more than three times as bright. What is left, 6 to 9 %, is that
         // they know depths at their edges, which lie further out than most of their strands.
         EXPECT_NEAR(c.luminance_error(), 0.0, 0.11) << "side " << side;
+    }
+}
+
+/// Fur over a head: alone it is half covered over wide areas, and how many pixels are at least half
+/// covered says little; on its body the silhouette is what a viewer sees.
+class FurTest : public BesideStrandsTest {
+  protected:
+    void SetUp() override {
+        GpuTest::SetUp();
+        const std::filesystem::path file =
+            std::filesystem::path(VELLUS_SOURCE_DIR) / "assets/scenes/portrait.gltf";
+        const auto body = asset::load_gltf(file);
+        ASSERT_TRUE(body) << body.error().message();
+        const auto head = surface_from_scene(
+            *body, {.group = "head", .sphere = glm::vec4(0.0f, 0.505f, -0.045f, 0.115f)});
+        ASSERT_TRUE(head) << head.error().message();
+        GrowSettings settings = preset(GrowStyle::kFur);
+        settings.count = 20'000;
+        const auto groom = grow_groom(*head, settings, 1);
+        ASSERT_TRUE(groom) << groom.error().message();
+        ASSERT_NO_FATAL_FAILURE(
+            add(prepare_strands(*groom, glm::dmat4(1.0), 0.5e-3f), {.cards = 1'200}));
+        const auto worn = views().wear_on(file);
+        ASSERT_TRUE(worn) << worn.error().message();
+    }
+};
+
+TEST_F(FurTest, CardsReadAsTheirStrandsOnTheirBody) {
+    for (int side = 0; side < 4; ++side) {
+        const test::CardComparison c = compare_from(side * std::numbers::pi / 2.0);
+        EXPECT_GT(c.outline[0], 1.5 * c.silhouette[0]) << "there is a body";
+        EXPECT_NEAR(c.luminance_error(), 0.0, 0.05) << "side " << side;
+        EXPECT_NEAR(c.outline_error(), 0.0, 0.03) << "side " << side;
+        EXPECT_EQ(c.bald_blocks, 0) << "side " << side;
     }
 }
 
