@@ -9,8 +9,8 @@ namespace {
 
 using graph::Access;
 
-constexpr int kTile = 16;
-constexpr int kWindow = 2;  // pixels that hair is felt beyond itself
+constexpr glm::ivec2 kTile(32, 16);  // pixels of a group of threads
+constexpr int kWindow = 2;           // pixels that hair is felt beyond itself
 
 struct TaaPush {
     glm::ivec2 size;
@@ -24,11 +24,11 @@ struct TaaPush {
 bool make_pipeline(const gpu::Pipeline*& slot, bool hair, scene::RenderFrame& frame) {
     return frame.compute(slot, [&] {
         using enum gpu::Binding;
-        return gpu::ComputeInfo{.shader = "temporal/taa.comp.glsl",
-                                .bindings = {kSampledNearest, kSampledNearest, kSampledNearest,
-                                             kSampledLinear, kStorage},
-                                .push_bytes = sizeof(TaaPush),
-                                .constants = {hair ? 1U : 0U}};
+        return gpu::ComputeInfo{
+            .shader = "temporal/taa.comp.glsl",
+            .bindings = {kStorage, kStorage, kSampledNearest, kStorage, kStorage},
+            .push_bytes = sizeof(TaaPush),
+            .constants = {hair ? 1U : 0U}};
     });
 }
 
@@ -69,10 +69,10 @@ void describe_taa(Res<const TemporalSettings> settings, Res<const scene::ViewSet
     graph::History history = frame->graph.history(
         "taa", {gpu::Format::kRgba16Float, frame->size.x, frame->size.y}, view->cut);
     auto pass = frame->graph.add_pass("temporal/taa", graph::PassKind::kCompute);
-    pass.read(frame->color, Access::kSampledCompute);
-    pass.read(frame->velocity, Access::kSampledCompute);
+    pass.read(frame->color, Access::kStorageRead);
+    pass.read(frame->velocity, Access::kStorageRead);
     pass.read(frame->depth, Access::kSampledCompute);
-    pass.read(history.previous, Access::kSampledCompute);
+    pass.read(history.previous, Access::kStorageRead);
     history.next = pass.write(history.next, Access::kStorageWrite, {}, graph::Load::kDiscard);
     const TaaPush push{.size = glm::ivec2(frame->size),
                        .first = {},

@@ -32,7 +32,7 @@ struct TaaRegions {
     std::array<scene::PixelRect, 4> others;  ///< the empty ones are none
 };
 
-/// Cuts a picture: `hair` grows by what its window reaches and to whole tiles of 16 pixels.
+/// Cuts a picture: `hair` grows by what its window reaches and to whole tiles.
 TaaRegions cut_regions(const scene::PixelRect& hair, const glm::ivec2& size);
 
 /// System: pass "temporal/taa", the picture blended into its history.

@@ -1,6 +1,6 @@
 // Temporal antialiasing: resolve of one pixel, without texture access.
 // Sources: B. Karis, "High Quality Temporal Supersampling", SIGGRAPH 2014 (YCoCg box, luminance
-// weight); J. Jimenez, "Filmic SMAA", SIGGRAPH 2016 (Catmull-Rom in five taps).
+// weight); J. Jimenez, "Filmic SMAA", SIGGRAPH 2016 (Catmull-Rom without corners).
 // Colours are pre-exposed linear RGB. Texels of the frame go through taa_load, which marks garbage so that it
 // enters neither box nor history; texels of the history through taa_sanitize.
 #ifndef VELLUS_TEMPORAL_TAA_GLSL
@@ -98,38 +98,23 @@ VELLUS_FN float taa_blend(vec2 previous_uv, float blend) {
     return inside ? blend : 1.0f;
 }
 
-/// Catmull-Rom history in five bilinear taps at (uv12.x, uv0.y), (uv0.x, uv12.y), (uv12.x, uv12.y),
-/// (uv3.x, uv12.y), (uv12.x, uv3.y) with `weight_*`; divide by their sum, clamp to >= 0.
-struct TaaTaps {
-    vec2 uv0;
-    vec2 uv12;
-    vec2 uv3;
-    float weight_up;
-    float weight_left;
-    float weight_centre;
-    float weight_right;
-    float weight_down;
+/// Catmull-Rom weights of four texels side by side, from texel `first` on.
+struct TaaCubic {
+    int first;
+    vec4 weight;  // sum to 1
 };
 
-VELLUS_FN TaaTaps taa_catmull_rom(vec2 uv, vec2 size) {
-    vec2 position = uv * size;
-    vec2 centre = floor(position - vec2(0.5f)) + vec2(0.5f);
-    vec2 f = position - centre;
-    vec2 w0 = f * (f * (1.0f - 0.5f * f) - vec2(0.5f));
-    vec2 w1 = f * f * (1.5f * f - vec2(2.5f)) + vec2(1.0f);
-    vec2 w2 = f * (f * (2.0f - 1.5f * f) + vec2(0.5f));
-    vec2 w3 = f * f * (0.5f * f - vec2(0.5f));
-    vec2 w12 = w1 + w2;
-    TaaTaps t;
-    t.uv0 = (centre - vec2(1.0f)) / size;
-    t.uv12 = (centre + w2 / w12) / size;
-    t.uv3 = (centre + vec2(2.0f)) / size;
-    t.weight_up = w12.x * w0.y;
-    t.weight_left = w0.x * w12.y;
-    t.weight_centre = w12.x * w12.y;
-    t.weight_right = w3.x * w12.y;
-    t.weight_down = w12.x * w3.y;
-    return t;
+/// For a position in texels from the edge; a texel's centre is half a texel in.
+VELLUS_FN TaaCubic taa_catmull_rom(float position) {
+    float centre = floor(position - 0.5f);
+    float f = position - 0.5f - centre;
+    TaaCubic c;
+    c.first = int(centre) - 1;
+    c.weight.x = f * (f * (1.0f - 0.5f * f) - 0.5f);
+    c.weight.y = f * f * (1.5f * f - 2.5f) + 1.0f;
+    c.weight.z = f * (f * (2.0f - 1.5f * f) + 0.5f);
+    c.weight.w = f * f * (0.5f * f - 0.5f);
+    return c;
 }
 
 #endif

@@ -96,24 +96,22 @@ TEST(Taa, RemembersHairForThreeFramesWithoutAny) {
     EXPECT_EQ(glsl::taa_memory(true, false, 1.0f), 0.0f) << "moving hair leaves ghosts";
 }
 
-TEST(Taa, CatmullRomKeepsLinesExactly) {
-    // The five taps of a linear ramp, each bilinear, return the ramp; dropping the corners only
-    // rescales.
-    const glm::vec2 size(64.0f, 32.0f);
+TEST(Taa, CatmullRomKeepsParabolasExactly) {
     for (uint64_t i = 0; i < 1000; ++i) {
         test::Random random(3, i);
-        const glm::vec2 uv(random.range(0.1, 0.9), random.range(0.1, 0.9));
-        const glsl::TaaTaps t = glsl::taa_catmull_rom(uv, size);
-        const auto ramp = [](float u) { return 3.0 * u + 1.0; };
-        const double sum =
-            t.weight_up + t.weight_left + t.weight_centre + t.weight_right + t.weight_down;
-        const double x = (t.weight_up * ramp(t.uv12.x) + t.weight_left * ramp(t.uv0.x) +
-                          t.weight_centre * ramp(t.uv12.x) + t.weight_right * ramp(t.uv3.x) +
-                          t.weight_down * ramp(t.uv12.x)) /
-                         sum;
-        // The corners carry at most 2 × .07² of the weight, over at most two texels.
-        EXPECT_NEAR(x, ramp(uv.x), 3.0 * 2.0 / size.x * 0.02);
-        EXPECT_NEAR(sum, 1.0, 0.02);
+        const float position = static_cast<float>(random.range(2.0, 62.0));
+        const glsl::TaaCubic c = glsl::taa_catmull_rom(position);
+        const auto parabola = [](double u) { return 0.5 * u * u - 3.0 * u + 1.0; };
+        double sum = 0.0;
+        double value = 0.0;
+        for (int k = 0; k < 4; ++k) {
+            sum += c.weight[k];
+            value += c.weight[k] * parabola(c.first + k + 0.5);
+        }
+        EXPECT_NEAR(sum, 1.0, 1e-6);
+        EXPECT_NEAR(value, parabola(position), 1e-3);
+        EXPECT_GE(position, c.first + 1.5);
+        EXPECT_LT(position, c.first + 2.5);
     }
 }
 
