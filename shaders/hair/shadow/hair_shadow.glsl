@@ -1,6 +1,7 @@
 // How much of a punctual light passes the hair in front: PCF over exponential falloff. GLSL only.
 #ifndef VELLUS_HAIR_SHADOW_GLSL
 #define VELLUS_HAIR_SHADOW_GLSL
+#extension GL_EXT_control_flow_attributes : require
 #include "hair/shadow/deep_opacity.glsl"
 #include "hair/shadow/pcf_exponential.glsl"
 #include "light/lights.glsl"
@@ -74,18 +75,21 @@ DeepPoint deep_point(PunctualLight light, vec3 p, float width) {
 
 bool deep_knows(DeepPoint at) { return at.texel.x >= 0.0; }
 
-/// Transmittance in [0, 1] from the light to a point.
+/// Transmittance in [0, 1] from the light to a point. A CPU device runs both sides of a branch but leaves a loop
+/// that no pixel of several is in: most pixels lie where no map is.
 float deep_transmittance(PunctualLight light, DeepPoint at) {
     if (!deep_knows(at)) return 1.0;
     vec2 texel = at.texel - 0.5;
-    ivec2 low = max(ivec2(floor(texel)), ivec2(0));
-    ivec2 high = min(ivec2(floor(texel)) + 1, ivec2(int(light.layers_size) - 1));
+    ivec2 corner = ivec2(floor(texel));
     vec2 f = fract(texel);
-    vec4 through = exp(-vec4(deep_optical_depth(light, low, at.metres, at.own),
-                             deep_optical_depth(light, ivec2(high.x, low.y), at.metres, at.own),
-                             deep_optical_depth(light, ivec2(low.x, high.y), at.metres, at.own),
-                             deep_optical_depth(light, high, at.metres, at.own)));
-    return mix(mix(through.x, through.y, f.x), mix(through.z, through.w, f.x), f.y);
+    float sum = 0.0;
+    [[dont_unroll]] for (int i = 0; i < 4; ++i) {
+        ivec2 offset = ivec2(i & 1, i >> 1);
+        ivec2 nearby = clamp(corner + offset, ivec2(0), ivec2(int(light.layers_size) - 1));
+        vec2 weight = mix(1.0 - f, f, vec2(offset));
+        sum += weight.x * weight.y * exp(-deep_optical_depth(light, nearby, at.metres, at.own));
+    }
+    return sum;
 }
 
 /// Optical depth of the hair that a point which the map knows has behind it, of the closest texel: what
