@@ -19,7 +19,7 @@ void describe_tonemap(Res<const scene::ViewSettings> view, Res<DisplayPipelines>
     if (!frame->compute(pipelines->tonemap, [] {
             using enum gpu::Binding;
             return gpu::ComputeInfo{.shader = "display/tonemap.comp.glsl",
-                                    .bindings = {kSampledNearest, kStorage},
+                                    .bindings = {kStorage, kStorage},
                                     .push_bytes = sizeof(TonemapPush)};
         })) {
         return;
@@ -27,7 +27,7 @@ void describe_tonemap(Res<const scene::ViewSettings> view, Res<DisplayPipelines>
     frame->display = frame->graph.create_image(
         "display", {gpu::Format::kRgba8Unorm, frame->size.x, frame->size.y});
     auto pass = frame->graph.add_pass("display/tonemap", graph::PassKind::kCompute);
-    pass.read(frame->color, graph::Access::kSampledCompute);
+    pass.read(frame->color, graph::Access::kStorageRead);
     frame->display =
         pass.write(frame->display, graph::Access::kStorageWrite, {}, graph::Load::kDiscard);
     const TonemapPush push{glm::ivec2(frame->size), view->exposure};

@@ -8,13 +8,13 @@ layout(push_constant) uniform Push {
     ivec2 size;
     float exposure;
 };
-layout(binding = 0) uniform sampler2D color;
+layout(binding = 0, rgba16f) uniform readonly image2D color;
 layout(binding = 1, rgba8) uniform writeonly image2D display;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, size))) return;
-    vec3 linear_color = texelFetch(color, pixel, 0).rgb;
+    vec3 linear_color = imageLoad(color, pixel).rgb;
     // Half a step of noise before rounding to 8 bits, the same in every frame: a sky shows no bands.
     float noise = unit_float(hash_uint(uint(pixel.y * size.x + pixel.x))) - 0.5;
     imageStore(display, pixel,

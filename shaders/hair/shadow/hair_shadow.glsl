@@ -40,18 +40,18 @@ float hair_transmittance(PunctualLight light, vec3 p, float falloff, float first
 float deep_optical_depth(PunctualLight light, ivec2 texel, float metres, float own) {
     uint word = uint(texel.y * int(light.layers_size) + texel.x) * kDeepWords;
     float front = shadow_metres(light, light.hair_range, uintBitsToFloat(light.hair_layers.at[word]));
-    float before = float(light.hair_layers.at[word + kDeepBefore]);
     float behind = metres - front;
-    if (behind < 0.0) {
-        // How what lies before the front is spread is unknown: as over the first layer.
-        float first = 2.0 / float(kDeepLayers * (kDeepLayers - 1u)) * light.layers_span;
-        return before * saturate(1.0 + behind / first) * (1.0 / kDeepUnit);
+    DeepPlace place = deep_place(max(behind, 0.0), light.layers_span);
+    // What lies before the front comes first. How it is spread is unknown: as over the first layer.
+    uint last = behind < 0.0 ? 0u : 1u + place.layer;
+    float first_end = 2.0 / float(kDeepLayers * (kDeepLayers - 1u)) * light.layers_span;
+    float share = behind < 0.0 ? saturate(1.0 + behind / first_end) : place.share;
+    float own_units = behind < 0.0 ? 0.0 : own * kDeepUnit;
+    float sum = 0.0;
+    for (uint k = 0u; k <= last; ++k) {
+        float layer = float(light.hair_layers.at[word + kDeepBefore + k]);
+        sum += k < last ? layer : share * max(layer - own_units, 0.0);
     }
-    DeepPlace place = deep_place(behind, light.layers_span);
-    float sum = before;
-    for (uint k = 0u; k < place.layer; ++k) sum += float(light.hair_layers.at[word + kDeepFirst + k]);
-    float layer = float(light.hair_layers.at[word + kDeepFirst + place.layer]);
-    sum += place.share * max(layer - own * kDeepUnit, 0.0);
     return sum * (1.0 / kDeepUnit);
 }
 
@@ -99,10 +99,10 @@ float deep_behind(PunctualLight light, DeepPoint at) {
     uint word = uint(texel.y * int(light.layers_size) + texel.x) * kDeepWords;
     float front = shadow_metres(light, light.hair_range, uintBitsToFloat(light.hair_layers.at[word]));
     DeepPlace place = deep_place(max(at.metres - front, 0.0), light.layers_span);
-    float layer = float(light.hair_layers.at[word + kDeepFirst + place.layer]);
-    float sum = (1.0 - place.share) * max(layer - at.own * kDeepUnit, 0.0);
-    for (uint k = place.layer + 1u; k < kDeepLayers; ++k) {
-        sum += float(light.hair_layers.at[word + kDeepFirst + k]);
+    float sum = 0.0;
+    for (uint k = place.layer; k < kDeepLayers; ++k) {
+        float layer = float(light.hair_layers.at[word + kDeepFirst + k]);
+        sum += k > place.layer ? layer : (1.0 - place.share) * max(layer - at.own * kDeepUnit, 0.0);
     }
     return sum * (1.0 / kDeepUnit);
 }
