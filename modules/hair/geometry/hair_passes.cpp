@@ -26,6 +26,8 @@ struct ShadowDepthPush {
 };
 static_assert(sizeof(ShadowDepthPush) == 56);
 
+constexpr int kShadeTile = 32;  // pixels along a side; kTile of shaders/hair/scattering/shade.glsl
+
 /// Push constants of shaders/hair/scattering/shade.comp.glsl.
 struct ShadePush {
     VkDeviceAddress visibility;
@@ -377,7 +379,8 @@ void describe_hair(Res<HairFrame> hair, Res<const light::LightSet> lights,
                                     .segment_count = draw.primitives,
                                     .rect = draw.rect,
                                     .width = width});
-            const glm::ivec2 groups = (draw.rect.end - draw.rect.first + 7) / 8;
+            const glm::ivec2 groups =
+                (draw.rect.end - draw.rect.first + kShadeTile - 1) / kShadeTile;
             commands.dispatch(groups.x, groups.y);
         }
     });

@@ -12,7 +12,10 @@
 // Shades the pixels whose closest visible segment belongs to one groom and puts them over what is
 // behind. What all pixels share comes from uniform blocks at fixed offsets, and what this groom or
 // frame does not call for is compiled out.
-layout(local_size_x = 8, local_size_y = 8) in;
+//
+// A group first lists the pixels of its tile that the groom is in, then shades those: few tiles are full of hair.
+const int kTile = 32;
+layout(local_size_x = 32) in;
 layout(constant_id = 0) const uint kLightCount = 4;
 layout(constant_id = 1) const int kShadow = 1;  // as ShadowTechnique of modules/hair/techniques.h
 layout(constant_id = 2) const int kEnvironment = 1;  // as EnvironmentTechnique there
@@ -87,14 +90,19 @@ vec3 shade(HairSurface surface, vec3 position, vec3 tangent, AmbientDepths ambie
     return radiance;
 }
 
-void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + first_pixel;
-    if (any(greaterThanEqual(pixel, end_pixel))) return;
-    uint64_t key = visibility.at[pixel.y * width + pixel.x];
-    uint segment = uint(key & 0xffffffffUL) - 1u - first_id;
-    if (segment >= segment_count) return;
-    if (texelFetch(opaque_depth, pixel, 0).x >= uintBitsToFloat(uint(key >> 32))) return;
+uint64_t key_of(ivec2 pixel) { return visibility.at[pixel.y * width + pixel.x]; }
 
+uint segment_of(uint64_t key) { return uint(key & 0xffffffffUL) - 1u - first_id; }
+
+bool is_seen(ivec2 pixel) {
+    if (any(greaterThanEqual(pixel, end_pixel))) return false;
+    uint64_t key = key_of(pixel);
+    if (segment_of(key) >= segment_count) return false;
+    return texelFetch(opaque_depth, pixel, 0).x < uintBitsToFloat(uint(key >> 32));
+}
+
+void shade_pixel(ivec2 pixel) {
+    uint segment = segment_of(key_of(pixel));
     vec2 center = vec2(pixel) + 0.5;
     HairSample at;
     vec3 previous;
@@ -120,4 +128,21 @@ void main() {
                      ? vec2(0.0)
                      : view_velocity(view, hair.to_clip * vec4(at.position, 1.0), before);
     imageStore(velocity, pixel, vec4(moved, 0.0, 0.0));
+}
+
+shared uint seen_count;
+shared uint seen[kTile * kTile];  // pixels of the tile, row by row
+
+void main() {
+    ivec2 corner = first_pixel + ivec2(gl_WorkGroupID.xy) * kTile;
+    if (gl_LocalInvocationIndex == 0u) seen_count = 0u;
+    barrier();
+    for (uint row = 0u; row < kTile; ++row) {
+        if (!is_seen(corner + ivec2(gl_LocalInvocationIndex, row))) continue;
+        seen[atomicAdd(seen_count, 1u)] = row * kTile + gl_LocalInvocationIndex;
+    }
+    barrier();
+    for (uint i = gl_LocalInvocationIndex; i < seen_count; i += gl_WorkGroupSize.x) {
+        shade_pixel(corner + ivec2(seen[i] % kTile, seen[i] / kTile));
+    }
 }
