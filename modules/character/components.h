@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 
 #include "engine/asset/scene_asset.h"
 
@@ -27,6 +28,27 @@ struct MeshSlot {
     uint32_t joint_count = 0;  ///< 1 for meshes without skin: the node itself
     uint32_t first_weight = 0;
     uint32_t weight_count = 0;
+};
+
+/// What keeps the sky from a vertex; mirrored in shaders/character/mesh_data.glsl.
+struct CoveredVertex {
+    /// As packSnorm4x8: half of what is added to the normal where light arrives from (mesh space),
+    /// and the share of the sky that nothing hides.
+    uint32_t lean_and_open = 0;
+    float depth = 0.0f;  ///< of what hides the rest of the sky
+};
+static_assert(sizeof(CoveredVertex) == 8);
+
+/// What lies around a mesh and keeps the sky from it, worked out by whoever put it there (hair);
+/// meshes without one see the whole sky.
+struct SkyCover {
+    /// On the device: a CoveredVertex for each vertex of all triangle primitives, in their order.
+    uint64_t vertices = 0;
+    uint64_t primitives = ~0ULL;  ///< bit i: primitive i has covered vertices; those from 63 on do
+    float thickness = 1.0f;       ///< factor on all depths; 0: as without a cover
+    /// Of the light that meets a unit of depth: shares that go on and that turn back.
+    glm::vec3 forward{0.0f};
+    glm::vec3 backward{0.0f};
 };
 
 }  // namespace vellus::character

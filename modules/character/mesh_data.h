@@ -29,6 +29,13 @@ struct SkinnedVertex {
 };
 static_assert(sizeof(SkinnedVertex) == 36);
 
+/// A CoveredVertex in a frame.
+struct SkinnedCover {
+    glm::vec3 share;  ///< of the sky's light that arrives
+    glm::vec3 lean;
+};
+static_assert(sizeof(SkinnedCover) == 24);
+
 struct SkinPush {
     VkDeviceAddress rest = 0;
     VkDeviceAddress morphs = 0;
@@ -40,14 +47,19 @@ struct SkinPush {
     uint32_t vertex_count = 0;
     uint32_t target_count = 0;
     uint32_t has_joints = 0;
-    uint32_t unused = 0;
+    float cover_thickness = 0.0f;
+    VkDeviceAddress cover = 0;
+    VkDeviceAddress skinned_cover = 0;
+    glm::vec3 cover_forward{0.0f};
+    glm::vec3 cover_backward{0.0f};
 };
-static_assert(sizeof(SkinPush) == 72);
+static_assert(sizeof(SkinPush) == 112);
 
 struct MeshPush {
     VkDeviceAddress vertices = 0;
     VkDeviceAddress texcoords = 0;
     VkDeviceAddress colors = 0;
+    VkDeviceAddress cover = 0;
     glm::vec4 base_color{1.0f};
     glm::vec3 emissive{0.0f};
     float metallic = 1.0f;
@@ -58,7 +70,7 @@ struct MeshPush {
     float hair_falloff = 0.0f;
     uint32_t unused = 0;
 };
-static_assert(sizeof(MeshPush) == 80);
+static_assert(sizeof(MeshPush) == 88);
 
 struct ShadowPush {
     glm::mat4 to_shadow{1.0f};

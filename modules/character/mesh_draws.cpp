@@ -1,5 +1,7 @@
 #include "modules/character/mesh_draws.h"
 
+#include <algorithm>
+
 #include "engine/gpu/upload_ring.h"
 
 namespace vellus::character {
@@ -44,6 +46,20 @@ SkinPush skin_push(const MeshBuffers& mesh, const MeshSlot& slot, const Columns&
     push.target_count = mesh.target_count;
     push.has_joints = mesh.has_joints ? 1 : 0;
     return push;
+}
+
+/// Lets primitive `index`, whose vertices begin at `first_vertex` of its mesh, be covered; the
+/// frame's covers lie after its vertices.
+void add_cover(const SkyCover& cover, size_t index, uint64_t first_vertex, uint64_t skinned,
+               MeshDraw& draw) {
+    if (cover.thickness <= 0.0f) return;
+    if ((cover.primitives >> std::min<size_t>(index, 63) & 1U) == 0) return;
+    draw.covered = true;
+    draw.skin.cover = cover.vertices + first_vertex * sizeof(CoveredVertex);
+    draw.skin.skinned_cover = skinned;
+    draw.skin.cover_thickness = cover.thickness;
+    draw.skin.cover_forward = cover.forward;
+    draw.skin.cover_backward = cover.backward;
 }
 
 float alpha_cutoff(const asset::Material& material) {
@@ -116,19 +132,24 @@ void collect_draws(const MeshQuery& meshes, const scene::SceneLibrary& scenes,
     const Columns addresses = push_columns(columns, out.palette, uploads);
     if (addresses.palette == 0) return;
     meshes.each([&](const scene::MeshInstance& instance, const MeshSlot& slot,
-                    const scene::WorldBounds& bounds) {
+                    const scene::WorldBounds& bounds, const SkyCover* cover) {
         if (instance.asset >= library.assets.size()) return;
         const AssetMeshes& uploaded = library.assets[instance.asset];
         const bool visible = in_view(view, bounds.box);
         const bool mirrored = glm::determinant(glm::dmat3(columns.palette[slot.first_joint])) < 0.0;
-        for (const MeshBuffers& mesh : uploaded.meshes[instance.mesh]) {
+        uint64_t first_vertex = 0;
+        for (size_t i = 0; i < uploaded.meshes[instance.mesh].size(); ++i) {
+            const MeshBuffers& mesh = uploaded.meshes[instance.mesh][i];
             MeshDraw draw =
                 make_draw(mesh, *scenes.assets[instance.asset], uploaded, library, mirrored);
             draw.mesh.hair_falloff = out.hair_falloff;
             draw.skin = skin_push(mesh, slot, addresses, out.skinned_bytes);
             draw.in_view = visible;
-            out.draws.push_back(draw);
             out.skinned_bytes += mesh.vertex_count * sizeof(SkinnedVertex);
+            if (cover != nullptr) add_cover(*cover, i, first_vertex, out.skinned_bytes, draw);
+            if (draw.covered) out.skinned_bytes += mesh.vertex_count * sizeof(SkinnedCover);
+            first_vertex += mesh.vertex_count;
+            out.draws.push_back(draw);
         }
     });
 }

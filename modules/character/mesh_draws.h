@@ -25,6 +25,7 @@ struct MeshDraw {
     uint32_t index_count = 0;
     VkImageView base_color = VK_NULL_HANDLE;
     bool two_sided = false;
+    bool covered = false;  ///< keeps `skinned_cover`: bytes into the frame's skinned vertices
     bool in_view = true;
 };
 
@@ -41,7 +42,8 @@ struct MeshDraws {
 void relative_palettes(const DeformColumns& columns, const glm::dvec3& camera,
                        std::vector<glm::mat4x3>& out);
 
-using MeshQuery = Query<const scene::MeshInstance, const MeshSlot, const scene::WorldBounds>;
+using MeshQuery =
+    Query<const scene::MeshInstance, const MeshSlot, const scene::WorldBounds, const SkyCover*>;
 
 /// Lists the draws of all meshes that the library holds and pushes palettes and weights to the
 /// ring. Draws nothing where the ring is full (the ring reports it).

@@ -90,24 +90,29 @@ gpu::RasterInfo shadow_info() {
 
 Result<MeshPipelines> make_pipelines(gpu::Device& device) {
     gpu::PipelineLibrary& library = device.pipelines();
-    const auto skin =
-        library.compute({.shader = "character/skin.comp.glsl", .push_bytes = sizeof(SkinPush)});
+    const auto skin = library.compute(skin_info(false));
     if (!skin) return skin.error();
     const auto shadow = library.raster(shadow_info());
     if (!shadow) return shadow.error();
-    return MeshPipelines{*skin, *shadow, {}};
+    return MeshPipelines{.skin = *skin, .shadow = *shadow};
 }
 
 }  // namespace
 
-gpu::RasterInfo draw_info(uint32_t lights, HairOnMeshes hair, bool cull_back) {
+gpu::ComputeInfo skin_info(bool covered) {
+    return {.shader = "character/skin.comp.glsl",
+            .push_bytes = sizeof(SkinPush),
+            .constants = {covered ? 1U : 0U}};
+}
+
+gpu::RasterInfo draw_info(uint32_t lights, HairOnMeshes hair, bool covered, bool cull_back) {
     gpu::RasterInfo info;
     info.vertex_shader = "character/mesh.vert.glsl";
     info.fragment_shader = "character/mesh.frag.glsl";
     info.bindings = {gpu::Binding::kSampledRepeat, gpu::Binding::kSampledNearest,
                      gpu::Binding::kUniform, gpu::Binding::kUniform};
     info.push_bytes = sizeof(MeshPush);
-    info.constants = {lights, static_cast<uint32_t>(hair)};
+    info.constants = {lights, static_cast<uint32_t>(hair), covered ? 1U : 0U};
     info.color_formats = {gpu::Format::kRgba16Float, gpu::Format::kRg16Float};
     info.depth_format = gpu::Format::kD32Float;
     info.depth = gpu::DepthMode::kTestWrite;

@@ -41,7 +41,7 @@ struct AssetMeshes {
     std::vector<gpu::Image> images;  ///< by asset image; empty where no material samples it
 };
 
-/// What draws meshes under one number of lights, with or without shadows of hair.
+/// What draws meshes under one number of lights, with or without shadows of hair and a SkyCover.
 struct DrawPipelines {
     const gpu::Pipeline* one_sided = nullptr;  ///< back faces culled
     const gpu::Pipeline* two_sided = nullptr;  ///< nothing culled
@@ -49,16 +49,21 @@ struct DrawPipelines {
 
 struct MeshPipelines {
     const gpu::Pipeline* skin = nullptr;
+    const gpu::Pipeline* skin_covered = nullptr;  ///< made when a frame first calls for it
     const gpu::Pipeline* shadow = nullptr;
-    /// By number of lights, then HairOnMeshes; made when a frame first calls for one.
-    std::array<std::array<DrawPipelines, 3>, light::kMaxLights + 1> draw;
+    /// By number of lights, HairOnMeshes, and whether a SkyCover lies on them; made when a frame
+    /// first calls for one.
+    std::array<std::array<std::array<DrawPipelines, 2>, 3>, light::kMaxLights + 1> draw;
 };
 
 /// What of hair's shadows a frame has for meshes to look up.
 enum class HairOnMeshes : uint8_t { kNone, kClosest, kLayers };
 
+/// How to make MeshPipelines::skin and skin_covered.
+gpu::ComputeInfo skin_info(bool covered);
+
 /// How to make one of MeshPipelines::draw.
-gpu::RasterInfo draw_info(uint32_t lights, HairOnMeshes hair, bool cull_back);
+gpu::RasterInfo draw_info(uint32_t lights, HairOnMeshes hair, bool covered, bool cull_back);
 
 /// Meshes on the device, by asset index of the SceneLibrary. Resource.
 struct MeshLibrary {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "engine/frame_graph/context.h"
 
@@ -47,24 +48,30 @@ Tiles shadow_tiles(const light::LightBlock& block) {
 
 void record_skinning(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws,
                      const MeshPipelines& pipelines, VkDeviceAddress skinned) {
-    commands.bind(*pipelines.skin);
+    std::optional<bool> bound;
     for (const MeshDraw& draw : draws) {
+        if (bound != draw.covered) {
+            commands.bind(draw.covered ? *pipelines.skin_covered : *pipelines.skin);
+        }
+        bound = draw.covered;
         SkinPush push = draw.skin;
         push.skinned += skinned;
+        push.skinned_cover += skinned;
         commands.push(push);
         commands.dispatch_threads(push.vertex_count, kSkinGroup);
     }
 }
 
 void record_meshes(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws,
-                   const DrawPipelines& pipelines, VkDeviceAddress skinned,
+                   const std::array<DrawPipelines, 2>& pipelines, VkDeviceAddress skinned,
                    const gpu::UniformSlice& view, const gpu::UniformSlice& lights,
                    VkImageView opaque_shadows) {
     const gpu::Pipeline* bound = nullptr;
     VkImageView sampled = VK_NULL_HANDLE;
     for (const MeshDraw& draw : draws) {
         if (!draw.in_view) continue;
-        const gpu::Pipeline* pipeline = draw.two_sided ? pipelines.two_sided : pipelines.one_sided;
+        const DrawPipelines& kind = pipelines[draw.covered ? 1 : 0];
+        const gpu::Pipeline* pipeline = draw.two_sided ? kind.two_sided : kind.one_sided;
         if (pipeline != bound) commands.bind(*pipeline);
         if (pipeline != bound || draw.base_color != sampled) {
             commands.images({draw.base_color, opaque_shadows}, {view, lights});
@@ -73,6 +80,7 @@ void record_meshes(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws
         sampled = draw.base_color;
         MeshPush push = draw.mesh;
         push.vertices = skinned + draw.skin.skinned;
+        push.cover = skinned + draw.skin.skinned_cover;
         commands.push(push);
         commands.draw_indexed(draw.indices, draw.index_count);
     }
@@ -95,10 +103,14 @@ void gather_meshes(MeshQuery meshes, Res<const scene::SceneLibrary> scenes,
     collect_draws(meshes, *scenes, *library, *columns, *view, frame->uploads, *draws);
 }
 
-void describe_skinning(Res<const MeshDraws> draws, Res<const MeshLibrary> library,
+void describe_skinning(Res<const MeshDraws> draws, Res<MeshLibrary> library,
                        Res<scene::RenderFrame> frame, Res<MeshPasses> passes) {
     passes->skinned = {};
     if (draws->draws.empty()) return;
+    if (std::ranges::any_of(draws->draws, &MeshDraw::covered) &&
+        !frame->compute(library->pipelines.skin_covered, [] { return skin_info(true); })) {
+        return;
+    }
     auto pass = frame->graph.add_pass("character/skin", graph::PassKind::kCompute);
     const auto empty = frame->graph.create_buffer("skinned vertices", {draws->skinned_bytes});
     passes->skinned = pass.write(empty, graph::Access::kStorageWrite, graph::Load::kDiscard);
@@ -135,13 +147,20 @@ void describe_meshes(Res<const MeshDraws> draws, Res<const light::LightSet> ligh
     const HairOnMeshes hair = frame->hair_layers    ? HairOnMeshes::kLayers
                               : frame->hair_shadows ? HairOnMeshes::kClosest
                                                     : HairOnMeshes::kNone;
-    DrawPipelines& pipelines = library->pipelines.draw[light_count][static_cast<size_t>(hair)];
-    const auto info = [&](bool cull_back) {
-        return [=] { return draw_info(light_count, hair, cull_back); };
+    auto& pipelines = library->pipelines.draw[light_count][static_cast<size_t>(hair)];
+    const auto make = [&](bool covered) {
+        const auto info = [=](bool cull_back) {
+            return [=] { return draw_info(light_count, hair, covered, cull_back); };
+        };
+        DrawPipelines& pair = pipelines[covered ? 1 : 0];
+        return frame->raster(pair.one_sided, info(true)) &&
+               frame->raster(pair.two_sided, info(false));
     };
-    if (!frame->raster(pipelines.one_sided, info(true)) ||
-        !frame->raster(pipelines.two_sided, info(false))) {
-        return;
+    for (const bool covered : {false, true}) {
+        const auto called_for = [&](const MeshDraw& draw) {
+            return draw.in_view && draw.covered == covered;
+        };
+        if (std::ranges::any_of(draws->draws, called_for) && !make(covered)) return;
     }
     auto pass = frame->graph.add_pass("character/meshes", graph::PassKind::kRaster);
     frame->color = pass.color(frame->color);

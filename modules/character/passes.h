@@ -19,7 +19,7 @@ void gather_meshes(MeshQuery meshes, Res<const scene::SceneLibrary> scenes,
                    Res<MeshDraws> draws);
 
 /// System, stage skinning: pass "character/skin", one dispatch per primitive.
-void describe_skinning(Res<const MeshDraws> draws, Res<const MeshLibrary> library,
+void describe_skinning(Res<const MeshDraws> draws, Res<MeshLibrary> library,
                        Res<scene::RenderFrame> frame, Res<MeshPasses> passes);
 
 /// System, stage casters: pass "character/shadows" draws all meshes into each light's tile of
@@ -37,7 +37,7 @@ void describe_meshes(Res<const MeshDraws> draws, Res<const light::LightSet> ligh
 void record_skinning(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws,
                      const MeshPipelines& pipelines, VkDeviceAddress skinned);
 void record_meshes(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws,
-                   const DrawPipelines& pipelines, VkDeviceAddress skinned,
+                   const std::array<DrawPipelines, 2>& pipelines, VkDeviceAddress skinned,
                    const gpu::UniformSlice& view, const gpu::UniformSlice& lights,
                    VkImageView opaque_shadows);
 void record_shadow(gpu::CommandBuffer& commands, std::span<const MeshDraw> draws,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "modules/hair/cards/card_buffers.h"
+#include "modules/hair/environment/ambient_volume.h"
 #include "modules/hair/geometry/strand_buffers.h"
 #include "modules/hair/groom/groom_report.h"
 #include "modules/hair/groom/hair_material.h"
@@ -46,6 +47,8 @@ struct LibraryGroom {
     std::vector<uint16_t> card_parameters;
     /// Of cards: what their ambient depths are made of, until they are.
     std::shared_ptr<const CardGroom> card_source;
+    /// Its density, from when it is first drawn with ambient depths until meshes below it know.
+    std::shared_ptr<const AmbientVolume> volume;
     /// See StrandData::levels.
     std::vector<StrandLevel> levels;
     /// Length of all strands over the area they are seen on from the side, 1/metres: layers of hair
@@ -59,6 +62,8 @@ struct LibraryGroom {
     bool has_colors = false;
     /// Colour of the whole groom where its file gives one and no column of them.
     std::optional<glm::vec3> color;
+    /// Of its column of colours, or the same as `color`.
+    std::optional<glm::vec3> mean_color;
     GroomReport report;
 };
 

@@ -5,6 +5,7 @@
 #include "modules/hair/dynamics/move_hair.h"
 #include "modules/hair/dynamics/move_passes.h"
 #include "modules/hair/environment/ambient_upload.h"
+#include "modules/hair/environment/cover_meshes.h"
 #include "modules/hair/geometry/hair_passes.h"
 #include "modules/light/environment.h"
 #include "modules/scene/stages.h"
@@ -34,12 +35,15 @@ void register_hair(World& world, Schedule& schedule) {
     world.insert_resource(HairShadowMaps{});
     world.insert_resource(HairDeformation{});
     world.insert_resource(HairMotionPasses{});
+    world.insert_resource(HairCovers{});
     schedule.add(empty_clear_bounds).in(scene::kView).after(move_hair);
     schedule.add(gather_hair)
         .in(scene::kGather)
         .after(light::gather_lights)
         .after(light::gather_environment);
     schedule.add(upload_ambient_depths).in(scene::kGather).after(gather_hair);
+    schedule.add(cover_meshes).in(scene::kGather).after(upload_ambient_depths);
+    schedule.add(update_sky_covers).in(scene::kGather).after(cover_meshes);
     schedule.add(assign_hair_points).in(scene::kGather).after(upload_ambient_depths);
     schedule.add(assign_hair_shadows).in(scene::kGather).after(assign_hair_points);
     schedule.add(describe_hair_deformation).in(scene::kStrands);

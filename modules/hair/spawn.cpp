@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 #include <limits>
 #include <numbers>
 
@@ -82,6 +83,16 @@ float layers_of(const StrandData& strands) {
     return area > 0.0 ? static_cast<float>(length / area) : 0.0f;
 }
 
+std::optional<glm::vec3> mean_color(const StrandData& strands) {
+    if (strands.point_color.empty()) return constant_color(strands);
+    glm::dvec3 sum(0.0);
+    for (const glm::uvec2& halves : strands.point_color) {
+        const glm::vec2 rg = glm::unpackHalf2x16(halves.x);
+        sum += glm::dvec3(rg.x, rg.y, glm::unpackHalf2x16(halves.y).x);
+    }
+    return glm::vec3(sum / static_cast<double>(strands.point_color.size()));
+}
+
 LibraryGroom describe_groom(const std::string& name, const StrandData& strands,
                             const GroomReport& report) {
     return {.name = name,
@@ -95,6 +106,7 @@ LibraryGroom describe_groom(const std::string& name, const StrandData& strands,
             .has_width_column = !strands.point_width.empty(),
             .has_colors = !strands.point_color.empty(),
             .color = constant_color(strands),
+            .mean_color = mean_color(strands),
             .report = report};
 }
 

@@ -11,6 +11,8 @@
 layout(constant_id = 0) const uint kLightCount = 4;
 layout(constant_id = 1) const int kHairShadows = 1;  // HairOnMeshes of modules/character/mesh_library.h
 
+layout(constant_id = 2) const bool kCovered = false;  // something keeps the sky from this primitive
+
 layout(set = 0, binding = 0) uniform sampler2D base_color_image;
 layout(set = 0, binding = 1) uniform sampler2D opaque_shadows;
 
@@ -19,6 +21,8 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 texcoord;
 layout(location = 3) in vec4 color;
 layout(location = 4) in vec3 previous_clip;
+layout(location = 5) in vec3 sky_share;
+layout(location = 6) in vec3 sky_lean;
 
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec2 out_velocity;
@@ -61,9 +65,10 @@ void main() {
             radiance += reflected * shadow(light, n, to_light);
         }
     }
-    radiance += pbr_environment(surface, dot(n, to_view),
-                                sh_irradiance_over_pi(lights.environment, n),
-                                sh_irradiance_over_pi(lights.environment, reflect(-to_view, n)));
+    vec3 sky = pbr_environment(surface, dot(n, to_view),
+                               sh_irradiance_over_pi(lights.environment, kCovered ? normalize(n + sky_lean) : n),
+                               sh_irradiance_over_pi(lights.environment, reflect(-to_view, n)));
+    radiance += kCovered ? sky * sky_share : sky;
     out_color = vec4(min(radiance, vec3(60000.0)), 1.0);
     vec2 pixel = gl_FragCoord.xy - view.jitter;
     vec2 previous = (previous_clip.xy / previous_clip.z * 0.5 + 0.5) * vec2(view.size);

@@ -22,10 +22,22 @@ struct SkinnedVertex {
     vec3 previous;  // last frame's position, relative to the camera of *this* frame
 };
 
+struct CoveredVertex {
+    uint lean_and_open;
+    float depth;
+};
+
+struct SkinnedCover {
+    vec3 share;  // of the sky's light that arrives
+    vec3 lean;   // added to the normal: where from
+};
+
 layout(buffer_reference, scalar) readonly buffer RestVertices { RestVertex at[]; };
 layout(buffer_reference, scalar) readonly buffer MorphDeltas { MorphDelta at[]; };
 layout(buffer_reference, scalar) readonly buffer Affines { mat4x3 at[]; };
 layout(buffer_reference, scalar) readonly buffer MorphWeights { float at[]; };
 layout(buffer_reference, scalar) buffer SkinnedVertices { SkinnedVertex at[]; };
+layout(buffer_reference, scalar) readonly buffer CoveredVertices { CoveredVertex at[]; };
+layout(buffer_reference, scalar) buffer SkinnedCovers { SkinnedCover at[]; };
 
 #endif

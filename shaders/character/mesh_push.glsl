@@ -12,6 +12,7 @@ layout(push_constant, scalar) uniform Push {
     SkinnedVertices vertices;
     Texcoords texcoords;  // 0: none
     Colors colors;        // 0: white
+    SkinnedCovers covers;
     vec4 base_color;
     vec3 emissive;
     float metallic;

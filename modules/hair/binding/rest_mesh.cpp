@@ -198,6 +198,22 @@ std::vector<glm::dmat4> rest_transforms(const asset::SceneAsset& scene) {
     return world;
 }
 
+std::vector<glm::dmat4> rest_palette(const asset::SceneAsset& scene, uint32_t node) {
+    const auto transforms = rest_transforms(scene);
+    const uint32_t index = scene.nodes[node].skin;
+    if (index >= scene.skins.size() || scene.skins[index].joints.empty()) {
+        return {transforms[node]};
+    }
+    const asset::Skin& skin = scene.skins[index];
+    std::vector<glm::dmat4> palette;
+    for (size_t j = 0; j < skin.joints.size(); ++j) {
+        palette.push_back(transforms[skin.joints[j]] * (skin.inverse_bind.empty()
+                                                            ? glm::dmat4(1.0)
+                                                            : glm::dmat4(skin.inverse_bind[j])));
+    }
+    return palette;
+}
+
 Result<RestMesh> rest_mesh(const asset::SceneAsset& scene, uint32_t node) {
     const auto where = [&] {
         return fmt::format("{}: node {} '{}'", scene.path.string(), node, scene.nodes[node].name);
@@ -207,18 +223,7 @@ Result<RestMesh> rest_mesh(const asset::SceneAsset& scene, uint32_t node) {
         return Error{"has no mesh", where(), "bind hair to a node with a mesh"};
     }
     const asset::Mesh& mesh = scene.meshes[given.mesh];
-    const auto transforms = rest_transforms(scene);
-    std::vector<glm::dmat4> palette = {transforms[node]};
-    if (given.skin < scene.skins.size() && !scene.skins[given.skin].joints.empty()) {
-        const asset::Skin& skin = scene.skins[given.skin];
-        palette.clear();
-        for (size_t j = 0; j < skin.joints.size(); ++j) {
-            palette.push_back(
-                transforms[skin.joints[j]] *
-                (skin.inverse_bind.empty() ? glm::dmat4(1.0) : glm::dmat4(skin.inverse_bind[j])));
-        }
-    }
-    auto rest = rest_mesh(mesh, palette,
+    auto rest = rest_mesh(mesh, rest_palette(scene, node),
                           given.morph_weights.empty() ? mesh.morph_weights : given.morph_weights);
     if (rest) return rest;
     Error error = rest.error();

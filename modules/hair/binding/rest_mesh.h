@@ -28,6 +28,9 @@ Result<RestMesh> rest_mesh(const asset::Mesh& mesh, std::span<const glm::dmat4> 
 /// instance's root.
 std::vector<glm::dmat4> rest_transforms(const asset::SceneAsset& scene);
 
+/// By joint of the node's skin (one entry without skin): mesh space to the rest space.
+std::vector<glm::dmat4> rest_palette(const asset::SceneAsset& scene, uint32_t node);
+
 /// The mesh of a node as its file has it before any animation: what one sees opening the scene.
 /// The rest space is that of the instance's root. Errors name file and node.
 Result<RestMesh> rest_mesh(const asset::SceneAsset& scene, uint32_t node);

@@ -58,7 +58,9 @@ Result<uint32_t> add_built_cards(World& world, gpu::Device& device,
     if (!groom) return groom;
     LibraryGroom& item = world.resource<HairLibrary>().grooms[*groom];
     item.report = loaded->report;
-    if (strands.has_color && strands.point_color.empty()) item.color = glm::vec3(strands.color);
+    if (strands.has_color && strands.point_color.empty()) {
+        item.color = item.mean_color = glm::vec3(strands.color);
+    }
     return groom;
 }
 

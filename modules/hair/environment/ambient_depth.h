@@ -5,8 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "modules/hair/environment/ambient_pieces.h"
-#include "modules/hair/groom/strand_data.h"
+#include "modules/hair/environment/ambient_volume.h"
 
 namespace vellus::hair {
 
@@ -16,12 +15,6 @@ namespace vellus::hair {
 struct AxisDepths {
     std::array<float, 6> hair{};
     std::array<float, 6> open{};
-};
-
-/// How wide strands are: metres at the root, and that times `tip_scale` at the tip.
-struct StrandTaper {
-    float root = 1e-4f;
-    float tip_scale = 1.0f;
 };
 
 /// How much hair lies around each point; strand s has the points [strand_begin[s], strand_begin[s +
@@ -36,6 +29,10 @@ std::vector<AxisDepths> ambient_depths(std::span<const glm::vec3> points,
 std::vector<AxisDepths> ambient_depths(std::span<const glm::vec3> points,
                                        std::span<const uint32_t> card_begin,
                                        const AmbientPieces& pieces);
+
+/// The same in a volume that is there already, whose skin stays as it is.
+std::vector<AxisDepths> ambient_depths(const AmbientVolume& volume,
+                                       std::span<const glm::vec3> points);
 
 /// As the shader reads them: three times ten bits (ambient_code of hair/environment/ambient.glsl)
 /// in each of two words.

@@ -11,16 +11,19 @@ namespace vellus::hair {
 namespace {
 
 Result<void> upload(gpu::Device& device, float tip_scale, LibraryGroom& groom) {
+    if (groom.positions.empty()) return {};
+    const AmbientRoots roots{groom.positions, groom.strand_begin};
     const StrandTaper taper{groom.width > 0.0f ? groom.width : kNominalWidth, tip_scale};
-    const auto depths =
-        groom.card_source
-            ? ambient_depths(groom.positions, groom.strand_begin, card_pieces(*groom.card_source))
-            : ambient_depths(groom.positions, groom.strand_begin, taper);
-    const auto packed = pack_ambient_depths(depths);
+    auto volume = std::make_shared<AmbientVolume>(
+        groom.card_source ? ambient_volume(roots, card_pieces(*groom.card_source))
+                          : ambient_volume(roots, taper));
+    add_skin_below(roots, *volume);
+    const auto packed = pack_ambient_depths(ambient_depths(*volume, roots.points));
     auto buffer = gpu::Buffer::upload_span(device, std::span(packed), "hair ambient depths");
     if (!buffer) return buffer.error();
     groom.strands.ambient = std::move(*buffer);
     groom.card_source.reset();
+    groom.volume = std::move(volume);
     return {};
 }
 

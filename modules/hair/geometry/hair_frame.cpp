@@ -137,8 +137,7 @@ float longest_side(const scene::Box& box) {
     return static_cast<float>(std::max({size.x, size.y, size.z}));
 }
 
-/// The groom's axes as its node turns them, the environment's light along each, and how much denser
-/// or thinner than in its own width the groom is drawn.
+/// The groom's axes as its node turns them, the environment's light along each, and its thickness.
 void describe_ambient(const LibraryGroom& groom, const glm::dmat4& world, const HairWidth& width,
                       float alpha, const light::LightBlock& lights, HairInstance& instance) {
     light::glsl::Sh9 sh;
@@ -153,16 +152,7 @@ void describe_ambient(const LibraryGroom& groom, const glm::dmat4& world, const 
         instance.ambient_light[k + 3] = light::glsl::sh_irradiance_over_pi(sh, -unit);
     }
     instance.ambient = groom.strands.ambient.address();
-    const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(world))));
-    if (groom.cards) {
-        // Their atlas has the strands as wide as they are drawn.
-        instance.ambient_scale = alpha;
-        return;
-    }
-    const float nominal = groom.width > 0.0f ? groom.width : kNominalWidth;
-    const float drawn =
-        width.root > 0.0f ? width.root / static_cast<float>(std::max(scale, 1e-12)) : nominal;
-    instance.ambient_scale = alpha * drawn / nominal;
+    instance.ambient_scale = drawn_thickness(groom, width, alpha, world);
 }
 
 HairInstance describe_instance(const LibraryGroom& groom, const HairMaterial& material,
@@ -209,6 +199,17 @@ std::optional<HairDeform> describe_deform(const HairBinding* binding, const Hair
 }
 
 }  // namespace
+
+float drawn_thickness(const LibraryGroom& groom, const HairWidth& width, float alpha,
+                      const glm::dmat4& world) {
+    // The atlas of cards has the strands as wide as they are drawn.
+    if (groom.cards) return alpha;
+    const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(world))));
+    const float nominal = groom.width > 0.0f ? groom.width : kNominalWidth;
+    const float drawn =
+        width.root > 0.0f ? width.root / static_cast<float>(std::max(scale, 1e-12)) : nominal;
+    return alpha * drawn / nominal;
+}
 
 bool in_view(const scene::Box& box, const scene::ViewState& view) {
     // Outside if all corners lie beyond one plane of the frustum; near is w > 0 with reversed

@@ -153,6 +153,10 @@ using HairQuery = Query<Entity, const Hair, const scene::WorldTransform,
                         const HairMaterial, const HairWidth, const HairShadow, const HairTechniques,
                         const HairBinding*, const HairMoves*, const HairDetail*, const HairMotion*>;
 
+/// How much denser (above 1) or thinner than in its own width the groom is drawn.
+float drawn_thickness(const LibraryGroom& groom, const HairWidth& width, float alpha,
+                      const glm::dmat4& world);
+
 /// Whether any of the box may lie inside the picture.
 bool in_view(const scene::Box& box, const scene::ViewState& view);
 

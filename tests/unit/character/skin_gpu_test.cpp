@@ -102,9 +102,9 @@ void check(gpu::Device& device, bool joints, bool targets) {
     scene::ViewState view;
     view.pose.position = camera;
     MeshDraws draws;
-    collect_draws(
-        world.query<const scene::MeshInstance, const MeshSlot, const scene::WorldBounds>(), scenes,
-        library, columns, view, *ring, draws);
+    collect_draws(world.query<const scene::MeshInstance, const MeshSlot, const scene::WorldBounds,
+                              const SkyCover*>(),
+                  scenes, library, columns, view, *ring, draws);
     ASSERT_EQ(draws.draws.size(), 1u);
     auto skinned =
         gpu::Buffer::create(device, draws.skinned_bytes, gpu::MemoryKind::kDevice, "out");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "modules/hair/environment/ambient_depth.h"
+#include "modules/hair/groom/strand_data.h"
 #include "modules/hair/reference/visibility.h"
 #include "modules/hair/scattering/fibre.h"
 

@@ -7,6 +7,7 @@
 #include "modules/hair/cards/build_cards.h"
 #include "modules/hair/cards/card_columns.h"
 #include "modules/hair/environment/ambient_depth.h"
+#include "modules/hair/groom/strand_data.h"
 #include "tests/unit/hair/cards/card_strands.h"
 
 namespace vellus::hair {
