@@ -70,10 +70,11 @@ class CardViews {
     /// Shows another groom of the world's library from now on.
     void show(uint32_t groom) { world_.get<hair::Hair>(hair_)->groom = groom; }
 
-    /// Puts the meshes of a glTF file under the hair, in its upright metres.
+    /// Puts the meshes of a glTF file, without its lights, under the hair, in its upright metres.
     Result<void> wear_on(const std::filesystem::path& file) {
         auto body = asset::load_gltf(file);
         if (!body) return body.error();
+        for (asset::Node& node : body->nodes) node.light = asset::kNone;
         auto worn =
             scene::instantiate(world_, std::make_shared<const asset::SceneAsset>(std::move(*body)));
         if (!worn) return worn.error();
