@@ -23,6 +23,7 @@ constexpr int kSides = 8;
 struct Options {
     std::vector<std::string> grooms{"assets/grooms/long.hair"};
     std::string body;
+    hair::HairTechniques techniques;
     std::string device;
     std::string pictures;
     uint32_t size = 384;
@@ -103,6 +104,7 @@ Result<Worst> compare_sides(gpu::Device& device, const Options& options, const s
         if (auto worn = (*views)->wear_on(options.body); !worn) return worn.error();
     }
     World& world = (*views)->world();
+    *world.get<hair::HairTechniques>((*views)->hair()) = options.techniques;
     auto strand_groom = hair::add_strands(world, device, "strands", *strands, {});
     if (!strand_groom) return strand_groom.error();
     auto card_groom = hair::add_cards(world, device, "cards", built->cards);
@@ -163,6 +165,15 @@ void print_worst(const std::string& groom, const Worst& worst) {
         r.cluster_seconds + r.fit_seconds + r.bake_seconds);
 }
 
+void set(hair::HairTechniques& techniques, const std::string& choice) {
+    const size_t equals = std::min(choice.find('='), choice.size());
+    const std::string axis = choice.substr(0, equals);
+    const std::string id = choice.substr(std::min(equals + 1, choice.size()));
+    if (auto done = hair::set_technique(techniques, axis, id); !done) {
+        throw CLI::ValidationError("--set", done.error().message());
+    }
+}
+
 int run_cards(const Options& options) {
     auto device = gpu::Device::create({.name = options.device});
     if (!device) {
@@ -192,6 +203,12 @@ const Registration kCards(
          auto options = std::make_shared<Options>();
          app.add_option("--groom", options->grooms, "groom files, one table of all at the end");
          app.add_option("--body", options->body, "glTF file whose meshes wear the grooms");
+         app.add_option_function<std::vector<std::string>>(
+             "--set",
+             [options](const std::vector<std::string>& choices) {
+                 for (const std::string& choice : choices) set(options->techniques, choice);
+             },
+             "techniques of both, AXIS=TECHNIQUE");
          app.add_option("--device", options->device, "part of its name");
          app.add_option("--pictures", options->pictures, "folder for pictures: strands, cards");
          app.add_option("--size", options->size, "pixels")->check(CLI::Range(16, 4096));
