@@ -13,6 +13,7 @@
 #include "modules/scene/stages.h"
 #include "shaders/common/portable.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/one_mesh_scene.h"
 
 namespace vellus::character {
 namespace {
@@ -32,22 +33,11 @@ constexpr float kStill = 1e-4f;
 
 /// A square of side 2 facing +Z.
 std::shared_ptr<asset::SceneAsset> square() {
-    auto scene = std::make_shared<asset::SceneAsset>();
-    scene->path = "square.gltf";
     asset::Primitive p;
     p.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
     p.normals.assign(4, {0, 0, 1});
     p.indices = {0, 1, 2, 0, 2, 3};
-    p.material = 0;
-    scene->meshes.push_back({"square", {p}, {}});
-    scene->materials.resize(1);
-    scene->materials[0].base_color = {0.8f, 0.4f, 0.2f, 1.0f};
-    scene->materials[0].metallic = 0.0f;
-    scene->materials[0].roughness = 0.7f;
-    scene->nodes.resize(1);
-    scene->nodes[0].mesh = 0;
-    scene->roots = {0};
-    return scene;
+    return test::one_mesh_scene("square", std::move(p));
 }
 
 class MeshGpu : public test::GpuTest {

@@ -11,6 +11,7 @@
 #include "modules/hair/groom/strand_data.h"
 #include "modules/hair/reference/visibility.h"
 #include "modules/hair/scattering/fibre.h"
+#include "tests/support/round_segments.h"
 
 namespace vellus::hair {
 namespace {
@@ -296,16 +297,7 @@ TEST(AmbientDepth, IsWhatRaysThroughTheStrandsFind) {
     }
     constexpr float kWidth = 0.001f;
     const StrandData strands = prepare_strands(groom, glm::dmat4(1.0), kWidth);
-    std::vector<reference::RoundSegment> segments;
-    for (size_t i = 0; i < strands.segment_count(); ++i) {
-        const uint32_t first = strands.segment_point[i];
-        segments.push_back({.a = strands.positions[first],
-                            .b = strands.positions[first + 1],
-                            .radius_a = kWidth / 2,
-                            .radius_b = kWidth / 2,
-                            .opacity = 0.5,
-                            .strand = strands.segment_strand[i]});
-    }
+    const auto segments = test::round_segments(strands, kWidth, 0.5);
     const auto depths = ambient_depths(strands.positions, strands.strand_begin, {kWidth});
     // Along the strands, and across them.
     std::array<double, 2> difference{};

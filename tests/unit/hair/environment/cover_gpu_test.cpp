@@ -9,6 +9,7 @@
 #include "modules/light/load_environment.h"
 #include "modules/scene/instantiate.h"
 #include "tests/support/hair_scene.h"
+#include "tests/support/one_mesh_scene.h"
 
 // A floor below a slab of dense hair, the camera between the two, under nothing but a sky.
 namespace vellus::hair {
@@ -30,8 +31,6 @@ const double kFocal = 0.5 * kHeight / std::tan(0.4);  // pixels
 
 /// A grid of 4 x 4 m at kFloor, facing up.
 std::shared_ptr<asset::SceneAsset> floor_scene() {
-    auto scene = std::make_shared<asset::SceneAsset>();
-    scene->path = "floor.gltf";
     asset::Primitive p;
     constexpr uint32_t kSide = 161;
     for (uint32_t z = 0; z < kSide; ++z) {
@@ -45,16 +44,7 @@ std::shared_ptr<asset::SceneAsset> floor_scene() {
             p.indices.insert(p.indices.end(), {before - 1, at - 1, at, before - 1, at, before});
         }
     }
-    p.material = 0;
-    scene->meshes.push_back({"floor", {p}, {}});
-    scene->materials.resize(1);
-    scene->materials[0].base_color = {0.8f, 0.4f, 0.2f, 1.0f};
-    scene->materials[0].metallic = 0.0f;
-    scene->materials[0].roughness = 0.7f;
-    scene->nodes.resize(1);
-    scene->nodes[0].mesh = 0;
-    scene->roots = {0};
-    return scene;
+    return test::one_mesh_scene("floor", std::move(p));
 }
 
 /// Strands along x, 10 to 20 cm above the camera's height.

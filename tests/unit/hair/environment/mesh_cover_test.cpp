@@ -9,6 +9,7 @@
 #include "modules/hair/environment/cover.h"
 #include "modules/hair/groom/strand_data.h"
 #include "modules/hair/reference/visibility.h"
+#include "tests/support/round_segments.h"
 
 namespace vellus::hair {
 namespace {
@@ -94,16 +95,7 @@ struct Seen {
 };
 
 Seen brute_force(const StrandData& strands, const glm::dvec3& p, double opacity) {
-    std::vector<reference::RoundSegment> segments;
-    for (size_t i = 0; i < strands.segment_count(); ++i) {
-        const uint32_t first = strands.segment_point[i];
-        segments.push_back({.a = strands.positions[first],
-                            .b = strands.positions[first + 1],
-                            .radius_a = kWidth / 2,
-                            .radius_b = kWidth / 2,
-                            .opacity = opacity,
-                            .strand = strands.segment_strand[i]});
-    }
+    const auto segments = test::round_segments(strands, kWidth, opacity);
     constexpr int kRays = 2000;
     Seen seen;
     for (int i = 0; i < kRays; ++i) {
