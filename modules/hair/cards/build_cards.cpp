@@ -8,6 +8,7 @@
 #include "modules/hair/cards/bake.h"
 #include "modules/hair/cards/card_columns.h"
 #include "modules/hair/cards/cluster.h"
+#include "modules/hair/cards/face_outwards.h"
 #include "modules/hair/cards/pack.h"
 
 namespace vellus::hair {
@@ -214,6 +215,7 @@ Fit fit_cards(const StrandData& strands, uint32_t count, const CardBuildOptions&
             fit.ribbons[i] = fit_ribbon(strands, fit.members.of(i), limits);
         }
     });
+    face_outwards(fit.ribbons);
     fit.stoutness = stoutness(fit.ribbons);
     fit.gathering = gathering(fit.ribbons);
     fit.cluster_seconds = clustered - start;

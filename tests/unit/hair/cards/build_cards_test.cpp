@@ -11,6 +11,7 @@
 #include "modules/hair/cards/atlas_levels.h"
 #include "modules/hair/cards/bake.h"
 #include "modules/hair/cards/cluster.h"
+#include "modules/hair/cards/face_outwards.h"
 #include "modules/hair/cards/pack.h"
 #include "modules/hair/cards/row_directions.h"
 #include "modules/hair/cards/strand_path.h"
@@ -261,6 +262,39 @@ TEST(CardBakeTest, CoilsKeepTheirArea) {
     // Coils look alike from all sides but for where the turns of 40 strands happen to overlap.
     const double expected = brute_force_area(strands, 1.0f);
     EXPECT_NEAR(card_area(built->cards), expected, 0.1 * expected);
+}
+
+TEST(CardRibbonTest, FacesAwayFromTheOtherHair) {
+    // Meridians of a ball from near its pole to its equator, every other one with its front
+    // inwards.
+    constexpr int kRibbons = 24;
+    std::vector<Ribbon> ribbons(kRibbons);
+    for (int k = 0; k < kRibbons; ++k) {
+        const float around = 6.2831853f * static_cast<float>(k) / kRibbons;
+        for (int i = 0; i < 9; ++i) {
+            const float down = 0.3f + 0.15f * static_cast<float>(i);
+            const glm::vec3 out(std::sin(down) * std::cos(around), std::cos(down),
+                                std::sin(down) * std::sin(around));
+            const glm::vec3 front = k % 2 == 0 ? out : -out;
+            const glm::vec3 along(std::cos(down) * std::cos(around), -std::sin(down),
+                                  std::cos(down) * std::sin(around));
+            ribbons[static_cast<size_t>(k)].rows.push_back(
+                {.center = 0.1f * out,
+                 .across = glm::cross(along, front),
+                 .along = along,
+                 .toward = front,
+                 .half_width = 0.012f * std::sin(down),
+                 .half_thickness = 0.002f,
+                 .distance = 0.015f * static_cast<float>(i)});
+        }
+    }
+    face_outwards(ribbons);
+    for (const Ribbon& r : ribbons) {
+        for (const RibbonRow& row : r.rows) {
+            EXPECT_NEAR(glm::dot(row.toward, glm::normalize(row.center)), 1.0f, 1e-5f);
+            EXPECT_NEAR(glm::dot(glm::cross(row.across, row.along), row.toward), 1.0f, 1e-5f);
+        }
+    }
 }
 
 TEST(CardRowsTest, DirectionsAreThoseOfTheStrands) {
