@@ -14,7 +14,7 @@ struct CardPipelines {
 };
 
 /// Bytes of a card's vertex as one view sees it (CardVertex of shaders/hair/cards/cards.glsl).
-constexpr uint64_t kCardVertexBytes = 80;
+constexpr uint64_t kCardVertexBytes = 96;
 
 // Each of these adds no pass where no cards are drawn, and returns the buffer it was given.
 

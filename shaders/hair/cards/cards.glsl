@@ -21,6 +21,7 @@ struct CardVertex {
     vec4 toward;    // groom space: what a unit of the atlas's depth adds; w: alpha factor
     vec4 along;     // unit, groom space, root to tip; w: parameter
     vec4 across;    // unit, groom space; w: optical depth factor
+    vec4 turn;      // of a ribbon: its edge (-1 or 1), cosine and sine of its turn; w: half its width in the atlas
 };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer CardVertices { CardVertex at[]; };
 

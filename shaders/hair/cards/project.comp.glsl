@@ -42,7 +42,7 @@ float depth_step(vec3 p, vec3 to_eye, float units, float depth) {
 }
 
 void write_vertex(uint i, vec3 p, vec3 to_eye, vec3 toward, vec3 along, vec3 across, float alpha,
-                  float density) {
+                  float density, vec4 turn) {
     vec4 screen = to_screen(p);
     CardVertex vertex;
     vertex.screen = vec4(screen.xyz, depth_step(p, to_eye, dot(toward, to_eye), screen.z));
@@ -50,6 +50,7 @@ void write_vertex(uint i, vec3 p, vec3 to_eye, vec3 toward, vec3 along, vec3 acr
     vertex.toward = vec4(toward, alpha);
     vertex.along = vec4(along, point_parameter(set.parameters, i));
     vertex.across = vec4(across, density);
+    vertex.turn = turn;
     target.at[i] = vertex;
 }
 
@@ -131,8 +132,11 @@ void ribbon_row(uint row) {
     float alpha = 1.0 / widen;
     float seen_length = length(across_eye) / max(piece.w, 1.0e-12);
     float density = strand_density(row, to_eye, x, n, seen_length, a * inverse_h);
-    write_vertex(first, center - drawn, to_eye, toward, along, turned, alpha, density);
-    write_vertex(first + 1u, center + drawn, to_eye, toward, along, turned, alpha, density);
+    float half_u = 0.5 * (set.uvs.at[first + 1u].x - set.uvs.at[first].x);
+    vec4 turn = vec4(1.0, a * sx * inverse_h, b * sn * inverse_h, half_u);
+    write_vertex(first + 1u, center + drawn, to_eye, toward, along, turned, alpha, density, turn);
+    turn.x = -1.0;
+    write_vertex(first, center - drawn, to_eye, toward, along, turned, alpha, density, turn);
 }
 
 void mesh_vertex(uint i) {
@@ -144,7 +148,7 @@ void mesh_vertex(uint i) {
     vec3 to_eye = direction_to_eye(p);
     vec3 normal = cross(across, along);
     vec3 toward = normal * (dot(normal, to_eye) < 0.0 ? -set.depth_range : set.depth_range);
-    write_vertex(i, p, to_eye, toward, along, across, 1.0, 1.0);
+    write_vertex(i, p, to_eye, toward, along, across, 1.0, 1.0, vec4(0.0));
 }
 
 void main() {

@@ -10,10 +10,17 @@ vec3 card_color(uint srgb) {
                greaterThan(c, vec3(0.04045)));
 }
 
+/// From where a tube shows its point to where that lies in the atlas, which faces the card: the tube's
+/// cross-section, a disc once its half axes are divided out, turns. In texture coordinates.
+float card_turn(vec4 turn, float depth) {
+    return turn.w * (clamp(turn.x * turn.y - depth * turn.z, -1.0, 1.0) - turn.x);
+}
+
 HairSample card_sample(HairInstance hair, CardSet set, CardVertices vertices, uint index, vec2 pixel) {
     CardTriangle triangle = card_triangle(set, vertices, index);
     vec3 weights = card_weights(triangle, card_screen_weights(triangle, pixel));
     vec3 position = vec3(0.0), toward = vec3(0.0), along = vec3(0.0), across = vec3(0.0);
+    vec4 turn = vec4(0.0);
     vec2 uv = vec2(0.0);
     float parameter = 0.0;
     for (int i = 0; i < 3; ++i) {
@@ -22,15 +29,19 @@ HairSample card_sample(HairInstance hair, CardSet set, CardVertices vertices, ui
         toward += weights[i] * vertex.toward.xyz;
         along += weights[i] * vertex.along.xyz;
         across += weights[i] * vertex.across.xyz;
+        turn += weights[i] * vertex.turn;
         parameter += weights[i] * vertex.along.w;
         uv += weights[i] * set.uvs.at[triangle.points[i]];
     }
     uint texel = card_texel(triangle, uv);
-    uint shape = set.shape.at[texel], strand = set.strand.at[texel];
+    uint shape = set.shape.at[texel];
+    float depth = card_depth(shape);
+    uint seen = card_texel(triangle, uv + vec2(card_turn(turn, depth), 0.0));
+    uint strand = set.strand.at[seen];
     vec3 in_card = vec3(card_signed(strand), card_signed(strand >> 8), card_signed(strand >> 16));
 
     HairSample result;
-    result.position = position + card_depth(shape) * toward;
+    result.position = position + depth * toward;
     result.tangent = in_card.x * across + in_card.y * along + in_card.z * cross(across, along);
     if (dot(result.tangent, result.tangent) < 1.0e-6) result.tangent = along;
     result.parameter = (set.flags & kCardsParameters) != 0u ? float(strand >> 24) * (1.0 / 255.0)
@@ -51,7 +62,7 @@ HairSample card_sample(HairInstance hair, CardSet set, CardVertices vertices, ui
                                        along_open, against_open);
     }
     result.seed = card_seed(shape, triangle.salt);
-    result.tint = (set.flags & kCardsColors) != 0u ? card_color(set.color.at[texel]) : vec3(1.0);
+    result.tint = (set.flags & kCardsColors) != 0u ? card_color(set.color.at[seen]) : vec3(1.0);
     return result;
 }
 

@@ -190,6 +190,43 @@ TEST_F(CardsTest, ARibbonIsAsWideAsItsTubeFromEverySide) {
     }
 }
 
+TEST_F(CardsTest, ATurnedRibbonShowsTheSideThatFacesTheEye) {
+    // Strands on one side of the card are red, those on the other blue, all of them in the front
+    // half.
+    struct Case {
+        glm::vec3 across;
+        glm::vec3 toward;
+        bool left_is_red;
+        bool right_is_red;
+    };
+    const Case cases[] = {{{-20, 0, 0}, {0, 0, 6}, false, true},   // from its front
+                          {{20, 0, 0}, {0, 0, -6}, true, false},   // from behind
+                          {{0, 0, 20}, {6, 0, 0}, false, false},   // from its blue edge
+                          {{0, 0, -20}, {-6, 0, 0}, true, true}};  // from its red edge
+    for (const Case& c : cases) {
+        CardGroom cards = ribbon(c.across, c.toward);
+        std::ranges::fill(cards.atlas.depth, uint8_t{192});
+        for (uint32_t i = 0; i < 64 * 64; ++i) {
+            cards.atlas.color.push_back(i % 64 < 32 ? glm::u8vec3(255, 0, 0)
+                                                    : glm::u8vec3(0, 0, 255));
+        }
+        HairScene scene(device(), kSize, kSize);
+        scene.add_sun({0, 0, 1});
+        HairTechniques bare;
+        bare.shadow = ShadowTechnique::kNone;
+        add(scene, device(), cards, colored(glm::vec3(1.0f)), bare);
+        scene.build();
+        const auto pixels = scene.draw();
+        const auto is_red = [&](uint32_t x) {
+            const glm::vec4 p = pixels[64 * kSize + x];
+            EXPECT_GT(std::max(p.r, p.b), 0.0f);
+            return p.r > p.b;
+        };
+        EXPECT_EQ(is_red(60), c.left_is_red) << c.across.x << ", " << c.across.z;
+        EXPECT_EQ(is_red(67), c.right_is_red) << c.across.x << ", " << c.across.z;
+    }
+}
+
 TEST_F(CardsTest, AShortRibbonSeenAlongItsAxisSweepsNoDisc) {
     // Fur from within: rows half a width apart or less lead to the eye, and wind about that line by
     // half a pixel. Edges of each row's own would turn a half circle: an area of 1,250 pixels.
