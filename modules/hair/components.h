@@ -60,7 +60,7 @@ struct LibraryGroom {
     float width = 0.0f;
     bool has_width_column = false;
     bool has_colors = false;
-    /// Colour of the whole groom where its file gives one and no column of them.
+    /// Colour of the whole groom where its file gives one; of cards it may multiply their atlas's.
     std::optional<glm::vec3> color;
     /// Of its column of colours, or the same as `color`.
     std::optional<glm::vec3> mean_color;

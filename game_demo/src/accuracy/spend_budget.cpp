@@ -7,6 +7,7 @@
 #include "engine/platform/log.h"
 #include "game_demo/src/accuracy/setting.h"
 #include "modules/hair/components.h"
+#include "modules/hair/geometry/groom_colors.h"
 #include "modules/scene/components.h"
 
 namespace vellus::demo {
@@ -67,10 +68,8 @@ std::vector<KnownGroom> known_grooms(World& world, const AccuracyTable& table) {
                   const scene::WorldTransform& placed) {
             const hair::LibraryGroom& groom = library[hair.groom];
             const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(placed.matrix))));
-            const glm::vec3 color =
-                material.use_groom_colors && groom.color ? *groom.color : material.base_color;
             const GroomClass kind{groom_kind(groom.positions, groom.strand_begin, scale),
-                                  colour_kind(color)};
+                                  colour_kind(hair::mean_color(groom, material))};
             FrameModel model = frame_model(table, kind.groom, kind.colour);
             std::erase_if(model.effects,
                           [](const ChoiceEffect& effect) { return !is_own(effect.choice); });

@@ -6,6 +6,7 @@
 #include "modules/hair/binding/hair_pose.h"
 #include "modules/hair/components.h"
 #include "modules/hair/dynamics/bend_strands.h"
+#include "modules/hair/geometry/groom_colors.h"
 #include "modules/scene/components.h"
 #include "shaders/common/portable.h"
 
@@ -100,9 +101,9 @@ hair::tracer::Groom make_groom(const StrandData& strands, const hair::LibraryGro
     groom.segment_point = strands.segment_point;
     groom.segment_strand = strands.segment_strand;
     groom.segment_tint = tints(strands, material);
-    const bool one_color = library.color && material.use_groom_colors;
-    groom.base_color = one_color ? *library.color : material.base_color;
-    groom.tip_color = one_color ? *library.color : material.tip_color;
+    const hair::RootTipColors colors = hair::root_tip_colors(library, material);
+    groom.base_color = colors.root;
+    groom.tip_color = colors.tip;
     groom.gradient_start = material.gradient_start;
     groom.roughness = material.roughness;
     groom.tilt = material.shift;

@@ -26,7 +26,9 @@ Result<uint32_t> add_cards(World& world, gpu::Device& device, const std::string&
                               .card_source = std::make_shared<const CardGroom>(cards),
                               .bounds = bounds_of(cards),
                               .outermost = outermost_points(cards.points),
-                              .has_colors = !cards.atlas.color.empty()});
+                              .has_colors = !cards.atlas.color.empty(),
+                              .color = cards.color,
+                              .mean_color = mean_color(cards)});
     return static_cast<uint32_t>(library.grooms.size() - 1);
 }
 
@@ -56,11 +58,7 @@ Result<uint32_t> add_built_cards(World& world, gpu::Device& device,
     log_info("{}: {}", path.filename().string(), to_text(built->report));
     auto groom = add_cards(world, device, name, built->cards);
     if (!groom) return groom;
-    LibraryGroom& item = world.resource<HairLibrary>().grooms[*groom];
-    item.report = loaded->report;
-    if (strands.has_color && strands.point_color.empty()) {
-        item.color = item.mean_color = glm::vec3(strands.color);
-    }
+    world.resource<HairLibrary>().grooms[*groom].report = loaded->report;
     return groom;
 }
 

@@ -270,6 +270,9 @@ Result<CardBuild> build_cards(const StrandData& strands, const CardBuildOptions&
     if (auto checked = check(strands, options); !checked) return checked.error();
     CardBuild build;
     build.cards.ribbons = true;
+    if (strands.has_color && strands.point_color.empty()) {
+        build.cards.color = glm::clamp(glm::vec3(strands.color), 0.0f, 1.0f);
+    }
     const Fit fit = fit_as_asked(strands, options);
     const std::vector<Ribbon>& ribbons = fit.ribbons;
     const double fitted = wall_seconds();

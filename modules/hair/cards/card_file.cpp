@@ -20,6 +20,7 @@ struct CardsExtension {
     bool colored = true;
     bool root_at_bottom = false;
     float depth_range = 0.0f;
+    std::optional<glm::vec3> color;
     std::string tangent;
     std::string depth;
     std::string root;
@@ -35,6 +36,11 @@ Result<CardsExtension> parse_extension(const std::string& json, const std::strin
     fields.boolean("colored", cards.colored);
     fields.boolean("root_at_bottom", cards.root_at_bottom);
     fields.number("depth_range", 0.0, 1.0, cards.depth_range);
+    if (fields.has("color")) {
+        double color[3] = {};
+        fields.numbers("color", 0.0, 1.0, color);
+        cards.color = glm::vec3(color[0], color[1], color[2]);
+    }
     fields.text("tangent", cards.tangent);
     fields.text("depth", cards.depth);
     fields.text("root", cards.root);
@@ -100,13 +106,18 @@ class Reader {
                     fmt::format("mesh of node {} '{}' has no TEXCOORD_0", index, node.name),
                     "unwrap the cards onto their texture");
             }
-            const uint32_t image = primitive.material == asset::kNone
-                                       ? asset::kNone
-                                       : scene_.materials[primitive.material].base_color_image;
-            images_.insert(image);
+            take_material(primitive.material == asset::kNone
+                              ? asset::Material{}
+                              : scene_.materials[primitive.material]);
             add_primitive(primitive, world);
         }
         return {};
+    }
+
+    void take_material(const asset::Material& material) {
+        images_.insert(material.base_color_image);
+        const auto factor = glm::clamp(glm::vec3(material.base_color), 0.0f, 1.0f);
+        if (factor != glm::vec3(1.0f)) cards_.color = factor;
     }
 
     void add_primitive(const asset::Primitive& primitive, const glm::dmat4& world) {
@@ -161,6 +172,7 @@ class Reader {
                          "its alpha");
         }
         take_color(scene_.images[image]);
+        if (extension_.color) cards_.color = extension_.color;
         const Result<void> steps[] = {
             read_map("tangent", extension_.tangent,
                      [this](size_t i, glm::u8vec4 p) { cards_.atlas.tangent[i] = p; }),

@@ -66,6 +66,10 @@ std::vector<glm::vec3> normals_of(const CardGroom& cards) {
     return normals;
 }
 
+std::string color_array(glm::vec3 color, const char* end) {
+    return fmt::format("[{},{},{}{}", color.x, color.y, color.z, end);
+}
+
 std::string gltf_json(const CardGroom& cards, const std::string& name, size_t bin_bytes) {
     Bounds box;
     for (const glm::vec3& p : cards.points) box.add(p);
@@ -77,20 +81,22 @@ std::string gltf_json(const CardGroom& cards, const std::string& name, size_t bi
         R"({{"asset":{{"version":"2.0","generator":"Vellus"}},"extensionsUsed":["{}"],)"
         R"("scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"name":"{}","mesh":0,)"
         R"("extensions":{{"{}":{{"ribbons":{},"colored":{},"depth_range":{},)"
-        R"("tangent":"{}_tangent.png","depth":"{}_depth.png"{}{}}}}}}}],)",
+        R"({}"tangent":"{}_tangent.png","depth":"{}_depth.png"{}{}}}}}}}],)",
         kCardsExtensionName, name, kCardsExtensionName, cards.ribbons, !cards.atlas.color.empty(),
-        cards.depth_range, name, name,
+        cards.depth_range, cards.color ? R"("color":)" + color_array(*cards.color, "]") + "," : "",
+        name, name,
         cards.atlas.parameter.empty() ? "" : fmt::format(R"(,"root":"{}_root.png")", name),
         cards.atlas.strand.empty() ? "" : fmt::format(R"(,"strand":"{}_strand.png")", name));
-    fmt::format_to(std::back_inserter(out),
-                   R"("images":[{{"uri":"{}_color.png"}}],"samplers":[{{}}],)"
-                   R"("textures":[{{"source":0,"sampler":0}}],)"
-                   R"("materials":[{{"alphaMode":"MASK","alphaCutoff":0.3,"doubleSided":true,)"
-                   R"("pbrMetallicRoughness":{{"metallicFactor":0,"roughnessFactor":0.6,)"
-                   R"("baseColorTexture":{{"index":0}}}}}}],)"
-                   R"("meshes":[{{"primitives":[{{"mode":4,"material":0,"indices":3,)"
-                   R"("attributes":{{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2}}}}]}}],)",
-                   name);
+    fmt::format_to(
+        std::back_inserter(out),
+        R"("images":[{{"uri":"{}_color.png"}}],"samplers":[{{}}],)"
+        R"("textures":[{{"source":0,"sampler":0}}],)"
+        R"("materials":[{{"alphaMode":"MASK","alphaCutoff":0.3,"doubleSided":true,)"
+        R"("pbrMetallicRoughness":{{"metallicFactor":0,"roughnessFactor":0.6,)"
+        R"({}"baseColorTexture":{{"index":0}}}}}}],)"
+        R"("meshes":[{{"primitives":[{{"mode":4,"material":0,"indices":3,)"
+        R"("attributes":{{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2}}}}]}}],)",
+        name, cards.color ? R"("baseColorFactor":)" + color_array(*cards.color, ",1]") + "," : "");
     fmt::format_to(std::back_inserter(out),
                    R"("buffers":[{{"uri":"{}.bin","byteLength":{}}}],"bufferViews":[)"
                    R"({{"buffer":0,"byteOffset":0,"byteLength":{}}},)"

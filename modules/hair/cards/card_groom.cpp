@@ -1,5 +1,7 @@
 #include "modules/hair/cards/card_groom.h"
 
+#include <glm/gtc/color_space.hpp>
+
 namespace vellus::hair {
 
 namespace {
@@ -33,6 +35,20 @@ Bounds bounds_of(const CardGroom& cards) {
         box.add(middle + glm::vec3(radius));
     }
     return box;
+}
+
+std::optional<glm::vec3> mean_color(const CardGroom& cards) {
+    if (cards.atlas.color.empty()) return cards.color;
+    glm::dvec3 sum(0.0);
+    double opacity = 0.0;
+    for (size_t i = 0; i < cards.atlas.texels(); ++i) {
+        const auto weight = static_cast<double>(cards.atlas.opacity[i]);
+        if (weight == 0.0) continue;
+        sum += weight * glm::convertSRGBToLinear(glm::dvec3(cards.atlas.color[i]) / 255.0);
+        opacity += weight;
+    }
+    if (opacity == 0.0) return std::nullopt;
+    return cards.color.value_or(glm::vec3(1.0f)) * glm::vec3(sum / opacity);
 }
 
 }  // namespace vellus::hair

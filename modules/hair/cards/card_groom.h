@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/type_precision.hpp>
+#include <optional>
 #include <vector>
 
 #include "modules/hair/groom/groom.h"
@@ -53,6 +54,8 @@ struct CardGroom {
     std::vector<glm::uvec4> frames;
     /// Metres that full depth lies before the card; ribbons have their third point instead.
     float depth_range = 0.0f;
+    /// Linear colour of all cards where the groom gives one; multiplies the atlas's.
+    std::optional<glm::vec3> color;
     CardAtlas atlas;
 
     [[nodiscard]] size_t card_count() const { return card_begin.size() - 1; }
@@ -61,6 +64,9 @@ struct CardGroom {
 };
 
 Bounds bounds_of(const CardGroom& cards);
+
+/// Mean linear colour of what the cards show, where they have one of their own.
+std::optional<glm::vec3> mean_color(const CardGroom& cards);
 
 /// Signed byte codes of depth and tangents: exact at 0 and +-1.
 inline uint8_t encode_signed(float value) {

@@ -11,6 +11,7 @@
 #include "modules/hair/cards/card_groom.h"
 #include "modules/hair/environment/ambient.h"
 #include "modules/hair/environment/mesh_cover.h"
+#include "modules/hair/geometry/groom_colors.h"
 #include "modules/scene/library.h"
 
 namespace vellus::hair {
@@ -240,17 +241,11 @@ void cover_all(World& world) {
     for (LibraryGroom& groom : world.resource<HairLibrary>().grooms) groom.volume.reset();
 }
 
-/// Mean colour of a groom's strands.
-glm::vec3 color_of(const LibraryGroom& groom, const HairMaterial& material) {
-    if (material.use_groom_colors && groom.mean_color) return *groom.mean_color;
-    return 0.5f * (material.base_color + material.tip_color);
-}
-
 glsl::HairAverages averages_of(const LibraryGroom& groom, const HairMaterial& material,
                                FibreLibrary& fibres) {
     const float shift = std::sin(material.shift);
     const auto fibre = fibres.fibre(fibre_optics(material), material.roughness, shift);
-    const glsl::HairSurface surface{color_of(groom, material), 0.5f * material.specular,
+    const glsl::HairSurface surface{mean_color(groom, material), 0.5f * material.specular,
                                     material.roughness, material.scatter, shift};
     const float sine2 = 1.0f - kMeanCosine * kMeanCosine;
     const float cos2_t = 1.0f - sine2 * fibre.inverse_index2;

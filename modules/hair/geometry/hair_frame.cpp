@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <optional>
 
+#include "modules/hair/geometry/groom_colors.h"
 #include "modules/light/light_glsl.h"
 
 namespace vellus::hair {
@@ -168,10 +169,10 @@ HairInstance describe_instance(const LibraryGroom& groom, const HairMaterial& ma
     instance.strand_seed = strands.strand_seed.address();
     instance.cards = groom.cards ? groom.cards.set.address() : 0;
     instance.flags = has_colors ? kHasColors : 0u;
-    const bool one_color = groom.color && material.use_groom_colors;
-    instance.base_color = one_color ? *groom.color : material.base_color;
+    const RootTipColors colors = root_tip_colors(groom, material);
+    instance.base_color = colors.root;
     instance.color_variation = material.color_variation;
-    instance.tip_color = one_color ? *groom.color : material.tip_color;
+    instance.tip_color = colors.tip;
     instance.gradient_start = material.gradient_start;
     instance.specular = 0.5f * material.specular;  // the shading takes 0.5 for physical
     instance.roughness = material.roughness;

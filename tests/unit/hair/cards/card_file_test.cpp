@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <glm/gtc/color_space.hpp>
 
 #include "engine/asset/image_io.h"
 #include "engine/platform/files.h"
@@ -33,7 +34,8 @@ class CardFileTest : public testing::Test {
     /// Two quads as an artist's program writes them: one buffer, one material, no extension but
     /// `extension`.
     void write_artist_mesh(const std::string& name, const std::string& extension,
-                           const std::string& image = "hair.png") {
+                           const std::string& image = "hair.png",
+                           const std::string& material = "") {
         std::vector<float> values;
         for (int card = 0; card < 2; ++card) {
             const auto x = static_cast<float>(card);
@@ -57,7 +59,8 @@ class CardFileTest : public testing::Test {
                   extension + R"(}],
                   "images":[{"uri":")" +
                   image + R"("}],"textures":[{"source":0}],
-                  "materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],
+                  "materials":[{"pbrMetallicRoughness":{)" +
+                  material + R"("baseColorTexture":{"index":0}}}],
                   "meshes":[{"primitives":[{"material":0,"indices":2,
                       "attributes":{"POSITION":0,"TEXCOORD_0":1,"NORMAL":3}}]}],
                   "buffers":[{"uri":"mesh.bin","byteLength":184}],
@@ -97,11 +100,15 @@ TEST_F(CardFileTest, WhatIsWrittenReadsBackTheSame) {
                 groom.colors.emplace_back(0.2f, 0.1f + 0.001f * static_cast<float>(i % 500), 0.1f,
                                           1.0f);
             }
+        } else {
+            groom.default_color = glm::vec3(0.7f, 0.4f, 0.123456f);
+            groom.has_default_color = true;
         }
         auto built = build_cards(test::strands_of(groom, 0.0005f), {.cards = 10});
         ASSERT_TRUE(built);
         const CardGroom& cards = built->cards;
         EXPECT_EQ(cards.atlas.color.empty(), !colored);
+        EXPECT_EQ(cards.color.has_value(), !colored);
         ASSERT_TRUE(save_cards(cards, file("lock.gltf")));
         auto loaded = load_cards(file("lock.gltf"));
         ASSERT_TRUE(loaded) << loaded.error().message();
@@ -117,7 +124,24 @@ TEST_F(CardFileTest, WhatIsWrittenReadsBackTheSame) {
         EXPECT_EQ(loaded->atlas.tangent, cards.atlas.tangent);
         EXPECT_EQ(loaded->atlas.strand, cards.atlas.strand);
         EXPECT_EQ(loaded->atlas.color, cards.atlas.color);
+        EXPECT_EQ(loaded->color, cards.color);
     }
+}
+
+TEST_F(CardFileTest, CardsHaveTheColorOfTheirMaterial) {
+    write_png("hair.png", 4, 8, half_clear);
+    write_artist_mesh("plain.gltf", "");
+    const auto plain = load_cards(file("plain.gltf"));
+    ASSERT_TRUE(plain) << plain.error().message();
+    EXPECT_FALSE(plain->color);
+    const glm::vec3 texture = glm::convertSRGBToLinear(glm::vec3(200, 100, 50) / 255.0f);
+    EXPECT_LT(glm::distance(*mean_color(*plain), texture), 1e-5f);
+
+    write_artist_mesh("tinted.gltf", "", "hair.png", R"("baseColorFactor":[0.5,0.25,1,1],)");
+    const auto tinted = load_cards(file("tinted.gltf"));
+    ASSERT_TRUE(tinted) << tinted.error().message();
+    EXPECT_EQ(tinted->color, glm::vec3(0.5f, 0.25f, 1.0f));
+    EXPECT_LT(glm::distance(*mean_color(*tinted), texture * glm::vec3(0.5f, 0.25f, 1.0f)), 1e-5f);
 }
 
 TEST_F(CardFileTest, AnArtistsMeshNeedsNoMoreThanOpacity) {

@@ -299,6 +299,27 @@ TEST_F(CardsTest, AThinRibbonKeepsItsCoverage) {
     EXPECT_NEAR(covered, 0.2 * 80.0, 0.05 * 16.0);
 }
 
+TEST_F(CardsTest, CardsHaveTheOneColorOfTheirGroom) {
+    CardGroom cards = flat_card(40.0f, 40.0f, opaque, level);
+    cards.color = glm::vec3(0.1f, 0.6f, 0.2f);
+    HairExtension look;
+    look.material.color_variation = 0.0f;
+    std::vector<glm::vec4> pictures[2];
+    for (int k = 0; k < 2; ++k) {
+        if (k == 1) {
+            cards.color.reset();
+            look.material.base_color = look.material.tip_color = glm::vec3(0.1f, 0.6f, 0.2f);
+        }
+        HairScene scene(device(), kSize, kSize);
+        scene.add_sun({0, 0, 1});
+        add(scene, device(), cards, look);
+        scene.build();
+        pictures[k] = scene.draw();
+    }
+    EXPECT_GT(count_lit(pictures[0]), 1'000u);
+    EXPECT_EQ(pictures[0], pictures[1]);
+}
+
 TEST_F(CardsTest, CardsShadowStrands) {
     double lit[2] = {};
     for (const bool shaded : {false, true}) {

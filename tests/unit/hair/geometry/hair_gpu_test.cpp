@@ -86,6 +86,32 @@ TEST_F(HairTest, ThinStrandsKeepTheirCoverageOverFrames) {
     EXPECT_NEAR(covered / kFrames, expected, 0.02 * expected);
 }
 
+TEST_F(HairTest, ColorsOfTheGroomReplaceThoseOfTheMaterial) {
+    // As halves hold them.
+    const glm::vec3 color(0.5f, 0.25f, 0.125f);
+    StrandData strands = make_strands({horizontal(0.0f, 80.0f)}, 3.0f * kPixel);
+    std::vector<glm::vec4> pictures[3];
+    for (int k = 0; k < 3; ++k) {
+        HairExtension look;
+        look.material.color_variation = 0.0f;
+        strands.has_color = k == 1;
+        strands.color = glm::vec4(color, 1.0f);
+        if (k == 0) look.material.base_color = look.material.tip_color = color;
+        if (k == 2) {
+            const glm::uvec2 halves(glm::packHalf2x16({color.r, color.g}),
+                                    glm::packHalf2x16({color.b, 1.0f}));
+            strands.point_color.assign(strands.positions.size(), halves);
+        }
+        HairScene scene(device(), kSize, kSize);
+        scene.add_sun({0, 0, 1});
+        scene.add_hair(strands, look);
+        scene.build();
+        pictures[k] = scene.draw();
+    }
+    EXPECT_EQ(pictures[1], pictures[0]) << "one colour";
+    EXPECT_EQ(pictures[2], pictures[0]) << "a column of colours";
+}
+
 TEST_F(HairTest, TheNearerStrandIsSeenWhateverTheOrder) {
     for (const bool near_first : {true, false}) {
         HairScene scene(device(), kSize, kSize);
