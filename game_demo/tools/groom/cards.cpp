@@ -66,7 +66,7 @@ Action attach(CLI::App& app) {
     hair::CardBuildOptions& build = options->build;
     app.add_option(
            "--cards", build.cards,
-           "At most this many (0: 300, or 1200 where those would be stout, as of coils and fur)")
+           "At most this many (0: 300, or 900 to 4000 where hair is short, curled or gathered)")
         ->capture_default_str();
     app.add_option("--density", build.texels_per_metre,
                    "Texels per metre across the cards; 0: one per strand width")

@@ -10,8 +10,8 @@ namespace vellus::hair {
 
 /// What cards to build from strands.
 struct CardBuildOptions {
-    /// At most this many, in [1, 65536]; 0: 300, or 1,200 where those would be stout, or 900 where
-    /// hair is gathered (CardReport).
+    /// At most this many, in [1, 65536]; 0: 300, or 900 to 4,000 where those would be stout or hair
+    /// is gathered (CardReport).
     uint32_t cards = 0;
     /// Texels across the cards per metre; 0: one per strand width. Fewer where `max_texels` asks.
     float texels_per_metre = 0.0f;
@@ -28,7 +28,7 @@ struct CardBuildOptions {
 struct CardReport {
     size_t strands = 0;
     size_t cards = 0;
-    /// Mean half thickness over mean length: from about 0.11 on too few cards hold the strands.
+    /// Mean half thickness over mean length: from about 0.1 on too few cards hold the strands.
     float stoutness = 0.0f;
     /// Mean width at the roots over that along the whole card: from about 1.4 on hair is gathered,
     /// and few cards are too coarse for the head under it.

@@ -140,7 +140,7 @@ void read_cards(JsonFields& fields, std::optional<CardsChoice>& cards) {
         CardsChoice& choice = cards.emplace();
         double count = choice.count;
         double texels = choice.max_texels;
-        inner.number("count", 1.0, 65536.0, count);
+        inner.number("count", 0.0, 65536.0, count);
         inner.number("texels_per_metre", 0.0, 1e6, choice.texels_per_metre);
         inner.number("max_texels", 256.0, 1U << 27U, texels);
         choice.count = static_cast<uint32_t>(count);

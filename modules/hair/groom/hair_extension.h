@@ -32,7 +32,7 @@ struct HairBindingChoice {
 
 /// Cards to build from the strands when they are loaded; see cards/build_cards.h.
 struct CardsChoice {
-    uint32_t count = 300;
+    uint32_t count = 0;  ///< 0: chosen for the strands
     float texels_per_metre = 0.0f;
     uint32_t max_texels = 1U << 22U;
 };

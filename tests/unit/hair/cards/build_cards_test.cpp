@@ -379,24 +379,29 @@ TEST(CardBakeTest, TheNearerStrandIsSeen) {
 }
 
 TEST(CardBuildTest, StoutCardsBecomeMore) {
-    for (const float length : {0.3f, 0.015f}) {
+    // 300 squares that tile the ground have half a side of 0.0087 m, which seven strands in each do
+    // not fill: 0.0056 m.
+    struct Case {
+        float length;
+        uint32_t cards;
+    };
+    for (const Case& c :
+         {Case{0.3f, 300}, Case{0.08f, 900}, Case{0.035f, 1200}, Case{0.01f, 4000}}) {
         Groom groom;
-        for (uint32_t strand = 0; strand < 2000; ++strand) {
+        for (uint32_t strand = 0; strand < 5000; ++strand) {
             vellus::test::Random random(4, strand);
             const glm::vec3 root(random.range(-0.15, 0.15), 0.0, random.range(-0.15, 0.15));
-            add_strand(groom, {root, root + glm::vec3(0.0f, 0.5f * length, 0.0f),
-                               root + glm::vec3(0.0f, length, 0.0f)});
+            add_strand(groom, {root, root + glm::vec3(0.0f, 0.5f * c.length, 0.0f),
+                               root + glm::vec3(0.0f, c.length, 0.0f)});
         }
         const StrandData strands = strands_of(groom, kWidth);
-        const auto chosen = build_cards(strands, {.max_texels = 1U << 16U});
-        const auto few = build_cards(strands, {.cards = 300, .max_texels = 1U << 16U});
+        const auto chosen = build_cards(strands, {.max_texels = 1U << 18U});
+        const auto few = build_cards(strands, {.cards = 300, .max_texels = 1U << 18U});
         ASSERT_TRUE(chosen && few);
-        // 300 squares that tile the ground have half a side of 0.0087 m, which seven strands in
-        // each do not fill.
-        EXPECT_LT(few->report.stoutness * length, 0.0087f);
-        EXPECT_GT(few->report.stoutness * length, 0.003f);
+        EXPECT_LT(few->report.stoutness * c.length, 0.0087f);
+        EXPECT_GT(few->report.stoutness * c.length, 0.003f);
         EXPECT_EQ(few->report.cards, 300U);
-        EXPECT_EQ(chosen->report.cards, length > 0.1f ? 300U : 1200U);
+        EXPECT_EQ(chosen->report.cards, c.cards) << c.length;
         EXPECT_LE(chosen->report.stoutness, few->report.stoutness);
     }
 }

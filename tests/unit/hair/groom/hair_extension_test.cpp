@@ -220,7 +220,7 @@ TEST(HairExtensionTest, CardsMayBeBuiltAtLoad) {
     EXPECT_FLOAT_EQ(hair->cards->texels_per_metre, 2500.0f);
     EXPECT_EQ(hair->cards->max_texels, 1u << 22u);
     EXPECT_FALSE(parse_hair_extension(R"({"groom":"a.hair"})", "test")->cards);
-    const auto bad = parse_hair_extension(R"({"groom":"a.hair","cards":{"count":0}})", "test");
+    const auto bad = parse_hair_extension(R"({"groom":"a.hair","cards":{"count":-1}})", "test");
     ASSERT_FALSE(bad);
     EXPECT_NE(bad.error().message().find("count"), std::string::npos);
 }
