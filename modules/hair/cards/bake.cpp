@@ -73,8 +73,13 @@ class Baker {
     void add_piece(uint32_t strand, uint32_t point, float t0, float t1, uint32_t& hint) {
         const glm::vec3 a = strands_.positions[point];
         const glm::vec3 step = strands_.positions[point + 1] - a;
-        const RibbonPoint from = ribbon_.locate(a + step * t0, hint);
-        const RibbonPoint to = ribbon_.locate(a + step * t1, from.interval);
+        const auto fraction = [&](float t) {
+            return glm::mix(static_cast<float>(strands_.point_parameter[point]),
+                            static_cast<float>(strands_.point_parameter[point + 1]), t) /
+                   65535.0f;
+        };
+        const RibbonPoint from = ribbon_.locate(a + step * t0, fraction(t0), hint);
+        const RibbonPoint to = ribbon_.locate(a + step * t1, fraction(t1), from.interval);
         hint = to.interval;
         Piece piece;
         piece.ends[0] = to_grid(from);
@@ -86,9 +91,7 @@ class Baker {
                                        strand_width(strands_, point + 1, settings_.tip_scale), t);
         piece.sample_width = 2.0f * ribbon_.half_width(from) / static_cast<float>(grid_.x);
         piece.tangent = tangent_there(step, from);
-        piece.parameter = glm::mix(static_cast<float>(strands_.point_parameter[point]),
-                                   static_cast<float>(strands_.point_parameter[point + 1]), t) /
-                          65535.0f;
+        piece.parameter = fraction(t);
         piece.strand = strands_.strand_source[strand];
         if (!strands_.point_color.empty()) {
             const glm::uvec2 halves = strands_.point_color[point];

@@ -23,6 +23,9 @@ constexpr int kStraightenPasses = 8;
 constexpr int kStraightenRounds = 32;
 /// Half axes are at least this long, in metres, so that every ribbon has an area.
 constexpr float kLeastHalfAxis = 2e-5f;
+/// A cross-section through a point is the wrong one if its middle is so many times as far away as
+/// the point at the same share of the ribbon.
+constexpr float kFarther = 1.1f;
 
 float mix_rows(const Ribbon& ribbon, const RibbonPoint& at, float RibbonRow::*value) {
     return glm::mix(ribbon.rows[at.interval].*value, ribbon.rows[at.interval + 1].*value, at.t);
@@ -129,7 +132,8 @@ Spread measure_spread(const StrandData& strands, std::span<const uint32_t> membe
         const float width = strand_width(strands, root, 1.0f);
         for (uint32_t i = 0; i < kSamples; ++i) {
             const float fraction = static_cast<float>(i) / (kSamples - 1);
-            const RibbonPoint at = ribbon.locate(strand_position(strands, strand, fraction), hint);
+            const RibbonPoint at =
+                ribbon.locate(strand_position(strands, strand, fraction), fraction, hint);
             hint = at.interval;
             spread.points.push_back(at);
             spread.radius.push_back(0.5f * width * glm::mix(1.0f, tip_scale, fraction));
@@ -167,7 +171,38 @@ Ribbon pick_rows(const Ribbon& dense, const std::vector<uint32_t>& kept) {
 
 }  // namespace
 
-RibbonPoint Ribbon::locate(glm::vec3 p, uint32_t hint) const {
+RibbonPoint Ribbon::locate(glm::vec3 p, float fraction, uint32_t hint) const {
+    const auto away = [&](const RibbonPoint& at) {
+        return glm::distance(
+            p, glm::mix(rows[at.interval].center, rows[at.interval + 1].center, at.t));
+    };
+    const RibbonPoint through = cross_section_through(p, hint);
+    RibbonPoint same = at_fraction(fraction);
+    if (away(through) <= kFarther * away(same)) return through;
+    measure(p, same);
+    return same;
+}
+
+RibbonPoint Ribbon::at_fraction(float fraction) const {
+    const float distance = fraction * length();
+    const auto after = std::ranges::upper_bound(rows.begin() + 1, rows.end() - 1, distance, {},
+                                                &RibbonRow::distance);
+    RibbonPoint at{.interval = static_cast<uint32_t>(after - rows.begin() - 1)};
+    const float span = after->distance - rows[at.interval].distance;
+    at.t =
+        span > 0.0f ? std::clamp((distance - rows[at.interval].distance) / span, 0.0f, 1.0f) : 0.0f;
+    return at;
+}
+
+void Ribbon::measure(glm::vec3 p, RibbonPoint& at) const {
+    const RibbonRow& a = rows[at.interval];
+    const RibbonRow& b = rows[at.interval + 1];
+    const glm::vec3 offset = p - glm::mix(a.center, b.center, at.t);
+    at.across = glm::dot(offset, glm::normalize(glm::mix(a.across, b.across, at.t)));
+    at.toward = glm::dot(offset, glm::normalize(glm::mix(a.toward, b.toward, at.t)));
+}
+
+RibbonPoint Ribbon::cross_section_through(glm::vec3 p, uint32_t hint) const {
     const auto last = static_cast<uint32_t>(rows.size() - 2);
     uint32_t i = std::min(hint, last);
     float before = signed_distance(rows[i], p);
@@ -180,11 +215,7 @@ RibbonPoint Ribbon::locate(glm::vec3 p, uint32_t hint) const {
     RibbonPoint at{.interval = i};
     const float span = before - after;
     at.t = span > 0.0f ? std::clamp(before / span, 0.0f, 1.0f) : 0.0f;
-    const RibbonRow& a = rows[i];
-    const RibbonRow& b = rows[i + 1];
-    const glm::vec3 offset = p - glm::mix(a.center, b.center, at.t);
-    at.across = glm::dot(offset, glm::normalize(glm::mix(a.across, b.across, at.t)));
-    at.toward = glm::dot(offset, glm::normalize(glm::mix(a.toward, b.toward, at.t)));
+    measure(p, at);
     return at;
 }
 

@@ -40,13 +40,21 @@ struct Ribbon {
     std::vector<RibbonRow> rows;
 
     [[nodiscard]] float length() const { return rows.back().distance; }
-    /// The cross-section through `p`, searched from the interval `hint` on; beyond the ends it is
-    /// that of the end.
-    [[nodiscard]] RibbonPoint locate(glm::vec3 p, uint32_t hint) const;
+    /// The cross-section through `p`, a point at `fraction` of its strand's length, searched from
+    /// the interval `hint` on; beyond the ends it is that of the end. Where the ribbon turns so
+    /// tightly that the search ends in a cross-section far away, it is the one at the same
+    /// fraction.
+    [[nodiscard]] RibbonPoint locate(glm::vec3 p, float fraction, uint32_t hint) const;
     /// Distance along, half width and half thickness where a point lies.
     [[nodiscard]] float distance(const RibbonPoint& at) const;
     [[nodiscard]] float half_width(const RibbonPoint& at) const;
     [[nodiscard]] float half_thickness(const RibbonPoint& at) const;
+
+  private:
+    [[nodiscard]] RibbonPoint cross_section_through(glm::vec3 p, uint32_t hint) const;
+    [[nodiscard]] RibbonPoint at_fraction(float fraction) const;
+    /// Where `p` lies in that cross-section.
+    void measure(glm::vec3 p, RibbonPoint& at) const;
 };
 
 /// A ribbon that holds all of these strands with their widths: its centreline follows their mean,

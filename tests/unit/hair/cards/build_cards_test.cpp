@@ -116,8 +116,9 @@ TEST(CardRibbonTest, HoldsEveryStrandWithItsWidth) {
         const Ribbon ribbon = fit_ribbon(strands, all_of(strands), {.tip_scale = 1.0f});
         for (size_t s = 0; s < strands.strand_count(); ++s) {
             for (int i = 0; i <= 200; ++i) {
-                const glm::vec3 p = strand_position(strands, s, static_cast<float>(i) / 200.0f);
-                const RibbonPoint at = ribbon.locate(p, 0);
+                const float fraction = static_cast<float>(i) / 200.0f;
+                const RibbonPoint at =
+                    ribbon.locate(strand_position(strands, s, fraction), fraction, 0);
                 // Points between the 96 samples that were measured may bulge out by a little of a
                 // curl's radius.
                 const float slack = 1e-5f + 0.1f * curl;
@@ -262,6 +263,40 @@ TEST(CardBakeTest, CoilsKeepTheirArea) {
     // Coils look alike from all sides but for where the turns of 40 strands happen to overlap.
     const double expected = brute_force_area(strands, 1.0f);
     EXPECT_NEAR(card_area(built->cards), expected, 0.1 * expected);
+}
+
+TEST(CardRibbonTest, StaysWithAStrandThatTurnsBackLater) {
+    // A ribbon that folds over at a height of 5 cm and a strand that does so at 8 cm: from the
+    // cross-sections before the fold a search that follows it down ends at the root.
+    const auto row = [](glm::vec3 center, glm::vec3 along, float distance) {
+        const glm::vec3 toward(0, 0, 1);
+        return RibbonRow{center, glm::cross(along, toward), along, toward, 0.01f, 0.01f, distance};
+    };
+    Ribbon ribbon;
+    for (int i = 0; i <= 5; ++i) {
+        const float y = 0.01f * static_cast<float>(i);
+        ribbon.rows.push_back(row({0, y, 0}, {0, 1, 0}, y));
+    }
+    ribbon.rows.push_back(row({0.01f, 0.06f, 0}, {1, 0, 0}, 0.064f));
+    for (int i = 0; i <= 20; ++i) {
+        const float down = 0.01f * static_cast<float>(i);
+        ribbon.rows.push_back(row({0.02f, 0.05f - down, 0}, {0, -1, 0}, 0.078f + down));
+    }
+    const float length = 0.08f + 0.23f;
+    uint32_t hint = 0;
+    for (int i = 0; i <= 310; ++i) {
+        const float walked = 0.001f * static_cast<float>(i);
+        const bool up = walked <= 0.08f;
+        const glm::vec3 p =
+            up ? glm::vec3(0, walked, 0.004f) : glm::vec3(0.008f, 0.16f - walked, 0.004f);
+        const RibbonPoint at = ribbon.locate(p, walked / length, hint);
+        hint = at.interval;
+        if (walked > 0.19f) {
+            EXPECT_GT(at.interval, 6u) << walked;
+            EXPECT_NEAR(std::abs(at.across), 0.012f, 1e-5f) << walked;
+            EXPECT_NEAR(at.toward, 0.004f, 1e-5f) << walked;
+        }
+    }
 }
 
 TEST(CardRibbonTest, FacesAwayFromTheOtherHair) {
