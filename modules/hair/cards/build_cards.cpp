@@ -155,10 +155,11 @@ Result<void> check(const StrandData& strands, const CardBuildOptions& options) {
     return {};
 }
 
-/// Cards of most styles, 0.01 to 0.03 thick at this count.
+/// Cards of most styles, 0.01 to 0.02 thick at this count.
 constexpr uint32_t kFewCards = 300;
-/// Short hair is 0.10 thick and the stiff locks of a mohawk 0.05: its outline wants more.
-constexpr float kThick = 0.04f;
+/// Curls are 0.03 thick, the stiff locks of a mohawk 0.05 and short hair 0.10: their outlines want
+/// more.
+constexpr float kThick = 0.025f;
 /// Of a braid 1.8 and of a ponytail 2.1, whose cards at the tie cover a head too little; of all
 /// hair that hangs at most 1.1.
 constexpr float kGathered = 1.4f;
