@@ -24,7 +24,7 @@ Result<uint64_t> bytes_on_disk(const std::filesystem::path& gltf) {
     const std::string stem = gltf.stem().string();
     for (const std::string& name :
          {stem + ".gltf", stem + ".bin", stem + "_color.png", stem + "_tangent.png",
-          stem + "_depth.png", stem + "_root.png", stem + "_strand.png"}) {
+          stem + "_depth.png", stem + "_root.png", stem + "_strand.png", stem + "_fibres.png"}) {
         std::error_code code;
         const uint64_t bytes = std::filesystem::file_size(gltf.parent_path() / name, code);
         if (code) return Error{"is not there after writing", name, "check the disk"};

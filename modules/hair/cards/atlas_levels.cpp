@@ -53,6 +53,12 @@ uint32_t mean_opacity(const std::vector<uint32_t>& shape, const Block& block, gl
     return sum / 4;
 }
 
+uint8_t mean_fibres(const std::vector<uint8_t>& fibres, const Block& block, glm::uvec2 at) {
+    uint32_t sum = 1 + ((at.x ^ at.y) & 1U);
+    for (const size_t texel : block.texels) sum += fibres[texel];
+    return static_cast<uint8_t>(sum / 4);
+}
+
 uint32_t mean_color(const std::vector<uint32_t>& colors, const Block& block) {
     uint32_t word = 0;
     for (uint32_t i = 0; i < 3; ++i) word |= mean_byte(colors, block, i) << (8 * i);
@@ -64,6 +70,7 @@ void add_level(glm::uvec2 below, glm::uvec2 size, size_t first, AtlasLevels& lev
     const size_t end = next + size_t{size.x} * size.y;
     levels.shape.resize(end);
     levels.strand.resize(end);
+    if (!levels.fibres.empty()) levels.fibres.resize(end);
     if (!levels.color.empty()) levels.color.resize(end);
     parallel_ranges(size.y, kRowsPerJob, [&](size_t from, size_t to) {
         for (size_t y = from; y < to; ++y) {
@@ -75,6 +82,9 @@ void add_level(glm::uvec2 below, glm::uvec2 size, size_t first, AtlasLevels& lev
                                       mean_byte(levels.shape, block, 1) << 8U |
                                       (levels.shape[block.texels[block.strongest]] & 0xffff0000U);
                 levels.strand[texel] = levels.strand[block.texels[block.strongest]];
+                if (!levels.fibres.empty()) {
+                    levels.fibres[texel] = mean_fibres(levels.fibres, block, at);
+                }
                 if (!levels.color.empty()) {
                     levels.color[texel] = mean_color(levels.color, block);
                 }
@@ -93,6 +103,7 @@ AtlasLevels make_levels(const CardAtlas& atlas) {
     AtlasLevels levels;
     levels.shape.resize(atlas.texels());
     levels.strand.resize(atlas.texels());
+    levels.fibres = atlas.fibres;
     levels.color.resize(atlas.color.size());
     for (size_t i = 0; i < atlas.texels(); ++i) {
         levels.shape[i] = uint32_t{atlas.opacity[i]} | uint32_t{atlas.depth[i]} << 8U |

@@ -31,6 +31,8 @@ struct Piece {
 struct Sample {
     float toward = -1e30f;
     uint32_t piece = kNoPiece;
+    uint32_t last_strand = kNoPiece;
+    uint32_t strands = 0;  ///< over each other
 };
 
 /// Rasterises one card; columns are resolved at the end.
@@ -137,7 +139,11 @@ class Baker {
                 if (glm::dot(away, away) > piece.radius * piece.radius) continue;
                 const float toward = glm::mix(piece.toward[0], piece.toward[1], t);
                 Sample& sample = samples_[size_t{grid_.x} * static_cast<size_t>(y) + x];
-                if (toward > sample.toward) sample = {toward, index};
+                if (sample.last_strand != piece.strand) ++sample.strands;
+                sample.last_strand = piece.strand;
+                if (toward <= sample.toward) continue;
+                sample.toward = toward;
+                sample.piece = index;
             }
         }
     }
@@ -170,6 +176,7 @@ CardAtlas make_columns(glm::uvec2 size, bool colored) {
     atlas.parameter.assign(atlas.texels(), 0);
     atlas.tangent.assign(atlas.texels(), glm::u8vec3(128, 255, 128));
     atlas.strand.assign(atlas.texels(), 0);
+    atlas.fibres.assign(atlas.texels(), 0);
     if (colored) atlas.color.assign(atlas.texels(), glm::u8vec3(255));
     return atlas;
 }
@@ -181,6 +188,7 @@ CardAtlas Baker::resolve() const {
         const size_t corner_x = texel % atlas.width * per_axis;
         const size_t corner_y = texel / atlas.width * per_axis;
         float count = 0.0f;
+        float fibres = 0.0f;
         float toward = 0.0f;
         float parameter = 0.0f;
         glm::vec3 tangent(0.0f);
@@ -192,6 +200,7 @@ CardAtlas Baker::resolve() const {
             if (sample.piece == kNoPiece) continue;
             const Piece& piece = pieces_[sample.piece];
             count += 1.0f;
+            fibres += static_cast<float>(sample.strands);
             toward += sample.toward;
             parameter += piece.parameter;
             // A strand lies along its tangent and against it: opposite ones are alike.
@@ -202,6 +211,8 @@ CardAtlas Baker::resolve() const {
         if (count == 0.0f) continue;
         const float share = count / static_cast<float>(per_axis * per_axis);
         atlas.opacity[texel] = static_cast<uint8_t>(std::lround(255.0f * share));
+        atlas.fibres[texel] = static_cast<uint8_t>(
+            std::min(std::lround(16.0f * fibres / static_cast<float>(per_axis * per_axis)), 255L));
         atlas.depth[texel] = encode_signed(toward / count);
         atlas.parameter[texel] = static_cast<uint8_t>(std::lround(255.0f * parameter / count));
         const glm::vec3 nearest = pieces_[front.piece].tangent;

@@ -110,6 +110,7 @@ void place(const CardAtlas& card, glm::uvec2 corner, CardAtlas& atlas) {
     copy_rows(card.parameter, card.width, atlas.parameter, atlas.width, corner);
     copy_rows(card.tangent, card.width, atlas.tangent, atlas.width, corner);
     copy_rows(card.strand, card.width, atlas.strand, atlas.width, corner);
+    copy_rows(card.fibres, card.width, atlas.fibres, atlas.width, corner);
     copy_rows(card.color, card.width, atlas.color, atlas.width, corner);
 }
 
@@ -121,6 +122,7 @@ void clear(glm::uvec2 size, bool colored, CardAtlas& atlas) {
     atlas.parameter.assign(atlas.texels(), 0);
     atlas.tangent.assign(atlas.texels(), glm::u8vec3(128, 255, 128));
     atlas.strand.assign(atlas.texels(), 0);
+    atlas.fibres.assign(atlas.texels(), 0);
     if (colored) atlas.color.assign(atlas.texels(), glm::u8vec3(255));
 }
 

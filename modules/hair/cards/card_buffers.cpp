@@ -20,6 +20,7 @@ struct CardSet {
     VkDeviceAddress directions;
     VkDeviceAddress shape;
     VkDeviceAddress strand;
+    VkDeviceAddress fibres;
     VkDeviceAddress color;
     glm::uvec2 size;
     uint32_t flags;
@@ -27,7 +28,7 @@ struct CardSet {
     uint32_t point_count;
     uint32_t triangle_count;
 };
-static_assert(sizeof(CardSet) == 88);
+static_assert(sizeof(CardSet) == 96);
 
 template <class T>
 Result<void> upload_column(gpu::Device& device, const std::vector<T>& column, const char* name,
@@ -54,7 +55,9 @@ std::vector<glm::uvec4> name_cards(const CardGroom& cards) {
 Result<CardBuffers> CardBuffers::upload(gpu::Device& device, const CardGroom& cards,
                                         const gpu::Buffer& parameters) {
     CardBuffers buffers;
-    const AtlasLevels levels = make_levels(cards.atlas);
+    AtlasLevels levels = make_levels(cards.atlas);
+    // Read four at a time.
+    levels.fibres.resize((levels.fibres.size() + 3) / 4 * 4);
     const Result<void> steps[] = {
         upload_column(device, cards.uvs, "card uvs", buffers.uvs),
         upload_column(device, name_cards(cards), "card triangles", buffers.triangles),
@@ -62,6 +65,7 @@ Result<CardBuffers> CardBuffers::upload(gpu::Device& device, const CardGroom& ca
         upload_column(device, row_directions(cards), "card row directions", buffers.directions),
         upload_column(device, levels.shape, "card shapes", buffers.shape),
         upload_column(device, levels.strand, "card strands", buffers.strand),
+        upload_column(device, levels.fibres, "card fibres", buffers.fibres),
         upload_column(device, levels.color, "card colours", buffers.color),
     };
     for (const auto& step : steps) {
@@ -81,6 +85,7 @@ Result<CardBuffers> CardBuffers::upload(gpu::Device& device, const CardGroom& ca
         .directions = buffers.directions.address(),
         .shape = buffers.shape.address(),
         .strand = buffers.strand.address(),
+        .fibres = buffers.fibres.address(),
         .color = buffers.color.address(),
         .size = {cards.atlas.width, cards.atlas.height},
         .flags = (cards.ribbons ? kRibbons : 0U) | (cards.atlas.color.empty() ? 0U : kColors) |
@@ -97,7 +102,7 @@ Result<CardBuffers> CardBuffers::upload(gpu::Device& device, const CardGroom& ca
 uint64_t CardBuffers::bytes() const {
     uint64_t sum = 0;
     for (const gpu::Buffer* buffer :
-         {&uvs, &triangles, &frames, &directions, &shape, &strand, &color, &set}) {
+         {&uvs, &triangles, &frames, &directions, &shape, &strand, &fibres, &color, &set}) {
         sum += buffer->bytes();
     }
     return sum;

@@ -15,6 +15,7 @@ struct CardBuffers {
     gpu::Buffer directions;  ///< row_directions() of ribbons
     gpu::Buffer shape;
     gpu::Buffer strand;
+    gpu::Buffer fibres;
     gpu::Buffer color;
     gpu::Buffer set;  ///< CardSet of shaders/hair/cards/cards.glsl
     uint32_t point_count = 0;

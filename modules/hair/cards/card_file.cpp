@@ -25,6 +25,7 @@ struct CardsExtension {
     std::string depth;
     std::string root;
     std::string strand;
+    std::string fibres;
 };
 
 Result<CardsExtension> parse_extension(const std::string& json, const std::string& where) {
@@ -45,6 +46,7 @@ Result<CardsExtension> parse_extension(const std::string& json, const std::strin
     fields.text("depth", cards.depth);
     fields.text("root", cards.root);
     fields.text("strand", cards.strand);
+    fields.text("fibres", cards.fibres);
     if (fields.error()) return *fields.error();
     return cards;
 }
@@ -79,6 +81,7 @@ class Reader {
         derive_columns(cards_);
         if (extension_.root.empty()) cards_.atlas.parameter.clear();
         if (extension_.strand.empty()) cards_.atlas.strand.clear();
+        if (extension_.fibres.empty()) cards_.atlas.fibres.clear();
         return std::move(cards_);
     }
 
@@ -184,6 +187,8 @@ class Reader {
                      [this](size_t i, glm::u8vec4 p) {
                          cards_.atlas.strand[i] = static_cast<uint16_t>(p.x << 8U | p.y);
                      }),
+            read_map("fibres", extension_.fibres,
+                     [this](size_t i, glm::u8vec4 p) { cards_.atlas.fibres[i] = p.x; }),
         };
         for (const auto& step : steps) {
             if (!step) return step;
@@ -208,6 +213,7 @@ class Reader {
         atlas.parameter.assign(atlas.texels(), 0);
         atlas.tangent.assign(atlas.texels(), glm::u8vec3(128, 255, 128));
         atlas.strand.assign(atlas.texels(), 0);
+        atlas.fibres.assign(atlas.texels(), 0);
         if (extension_.colored) atlas.color.resize(atlas.texels());
         for (size_t i = 0; i < atlas.texels(); ++i) {
             atlas.opacity[texel(i)] = image.rgba[4 * i + 3];

@@ -44,6 +44,10 @@ Result<void> save_maps(const CardAtlas& atlas, const std::filesystem::path& fold
                    [&](size_t i) {
                        return glm::u8vec4(atlas.strand[i] >> 8U, atlas.strand[i] & 0xffU, 0, 255);
                    }),
+        atlas.fibres.empty()
+            ? Result<void>()
+            : save("fibres",
+                   [&](size_t i) { return glm::u8vec4(glm::u8vec3(atlas.fibres[i]), 255); }),
     };
     for (const auto& step : steps) {
         if (!step) return step;
@@ -81,12 +85,13 @@ std::string gltf_json(const CardGroom& cards, const std::string& name, size_t bi
         R"({{"asset":{{"version":"2.0","generator":"Vellus"}},"extensionsUsed":["{}"],)"
         R"("scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"name":"{}","mesh":0,)"
         R"("extensions":{{"{}":{{"ribbons":{},"colored":{},"depth_range":{},)"
-        R"({}"tangent":"{}_tangent.png","depth":"{}_depth.png"{}{}}}}}}}],)",
+        R"({}"tangent":"{}_tangent.png","depth":"{}_depth.png"{}{}{}}}}}}}],)",
         kCardsExtensionName, name, kCardsExtensionName, cards.ribbons, !cards.atlas.color.empty(),
         cards.depth_range, cards.color ? R"("color":)" + color_array(*cards.color, "]") + "," : "",
         name, name,
         cards.atlas.parameter.empty() ? "" : fmt::format(R"(,"root":"{}_root.png")", name),
-        cards.atlas.strand.empty() ? "" : fmt::format(R"(,"strand":"{}_strand.png")", name));
+        cards.atlas.strand.empty() ? "" : fmt::format(R"(,"strand":"{}_strand.png")", name),
+        cards.atlas.fibres.empty() ? "" : fmt::format(R"(,"fibres":"{}_fibres.png")", name));
     fmt::format_to(
         std::back_inserter(out),
         R"("images":[{{"uri":"{}_color.png"}}],"samplers":[{{}}],)"

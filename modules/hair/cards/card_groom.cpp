@@ -1,10 +1,15 @@
 #include "modules/hair/cards/card_groom.h"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/color_space.hpp>
 
 namespace vellus::hair {
 
 namespace {
+
+/// As deep_optical_depth_of() of shaders/hair/shadow/deep_opacity.glsl has it.
+constexpr float kLeastOpen = 0.001f;
 
 template <class T>
 uint64_t column_bytes(const std::vector<T>& column) {
@@ -13,11 +18,18 @@ uint64_t column_bytes(const std::vector<T>& column) {
 
 }  // namespace
 
+float CardAtlas::fibres_at(size_t texel) const {
+    if (!fibres.empty()) return static_cast<float>(fibres[texel]) / 16.0f;
+    const float open = 1.0f - static_cast<float>(opacity[texel]) / 255.0f;
+    return -std::log(std::max(open, kLeastOpen));
+}
+
 uint64_t CardGroom::bytes() const {
     return column_bytes(points) + column_bytes(uvs) + column_bytes(triangles) +
            column_bytes(card_begin) + column_bytes(parameters) + column_bytes(frames) +
            column_bytes(atlas.opacity) + column_bytes(atlas.depth) + column_bytes(atlas.parameter) +
-           column_bytes(atlas.tangent) + column_bytes(atlas.strand) + column_bytes(atlas.color);
+           column_bytes(atlas.tangent) + column_bytes(atlas.strand) + column_bytes(atlas.fibres) +
+           column_bytes(atlas.color);
 }
 
 Bounds bounds_of(const CardGroom& cards) {

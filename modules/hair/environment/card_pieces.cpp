@@ -16,10 +16,13 @@ constexpr int kMostParts = 16;          // along a triangle's side
 constexpr int kSamples = 8;             // of the atlas, along a part's side
 constexpr float kMostCover = 0.999f;
 
-float opacity_at(const CardAtlas& atlas, const glm::vec2& uv) {
+/// Strands over each other at a place of the atlas; where it does not know, what they cover.
+float strands_over(const CardAtlas& atlas, const glm::vec2& uv) {
     const glm::vec2 size(atlas.width, atlas.height);
-    const glm::uvec2 texel(glm::min(glm::clamp(uv, 0.0f, 1.0f) * size, size - 1.0f));
-    return static_cast<float>(atlas.opacity[size_t{texel.y} * atlas.width + texel.x]) / 255.0f;
+    const glm::uvec2 at(glm::min(glm::clamp(uv, 0.0f, 1.0f) * size, size - 1.0f));
+    const size_t texel = size_t{at.y} * atlas.width + at.x;
+    return atlas.fibres.empty() ? static_cast<float>(atlas.opacity[texel]) / 255.0f
+                                : atlas.fibres_at(texel);
 }
 
 /// A triangle of a card: corners, their places in the atlas, and where its strands lead, by area.
@@ -43,14 +46,14 @@ T blend(const std::array<T, 3>& values, const glm::vec3& weights) {
     return weights.x * values[0] + weights.y * values[1] + weights.z * values[2];
 }
 
-/// Share of the part that strands cover.
-float cover(const CardAtlas& atlas, const Facet& facet, int i, int j) {
+/// Mean of strands_over() over the part.
+float mean_strands(const CardAtlas& atlas, const Facet& facet, int i, int j) {
     float sum = 0.0f;
     float count = 0.0f;
     for (int y = 0; y < kSamples; ++y) {
         for (int x = 0; x + y < kSamples; ++x) {
             const glm::vec2 inside = (glm::vec2(x, y) + 1.0f / 3.0f) / float{kSamples};
-            sum += opacity_at(atlas, blend(facet.uvs, facet.weights(i, j, inside)));
+            sum += strands_over(atlas, blend(facet.uvs, facet.weights(i, j, inside)));
             count += 1.0f;
         }
     }
@@ -117,13 +120,13 @@ void add_facet(const CardAtlas& atlas, const Facet& facet, glm::vec3* at, Strand
     float mean = 0.0f;
     for (int i = 0; i < facet.parts; ++i) {
         for (int j = 0; j < 2 * (facet.parts - i) - 1; ++j) {
-            const float c = cover(atlas, facet, i, j);
+            const float c = mean_strands(atlas, facet, i, j);
             mean += c / static_cast<float>(facet.parts * facet.parts);
             *at++ = blend(facet.points, facet.weights(i, j, glm::vec2(1.0f / 3.0f)));
             *strands++ = facet.strands.scaled(c * each);
         }
     }
-    if (mean <= 0.0f) return;
+    if (mean <= 0.0f || !atlas.fibres.empty()) return;
     // Strands that overlap by chance: of their area a share of (1 - e^-x) / x stays visible. Parts
     // see too few strands to tell x from what they cover.
     const float c = std::min(mean, kMostCover);

@@ -4,6 +4,7 @@
 #define VELLUS_HAIR_CARDS_GLSL
 #include "common/portable.glsl"
 #include "hair/geometry/strands.glsl"
+#include "hair/shadow/deep_opacity.glsl"
 
 const uint kCardsRibbons = 1u;
 const uint kCardsColors = 2u;
@@ -34,6 +35,7 @@ struct CardSet {
     Vec3s directions;  // of each row of a ribbon: squares and products of its strands' unit tangents
     Uints shape;   // per texel: opacity, depth, strand (16 bits)
     Uints strand;  // per texel: tangent, parameter
+    Uints fibres;  // strands over each other, 16 each, a byte a texel; null: by chance
     Uints color;   // per texel: sRGB
     uvec2 size;    // texels of level 0
     uint flags;
@@ -47,6 +49,16 @@ float card_opacity(uint shape) { return float(shape & 0xffu) * (1.0 / 255.0); }
 float card_signed(uint code) { return max((float(code & 0xffu) - 128.0) * (1.0 / 127.0), -1.0); }
 float card_depth(uint shape) { return card_signed(shape >> 8); }
 uint card_seed(uint shape, uint card_salt) { return hash_uint((shape >> 16) + 1u + card_salt); }
+
+/// A pixel of a card.
+struct CardFragment {
+    float depth;
+    float alpha;
+    uint seed;
+    uint texel;      // of the atlas
+    float opacity;   // there
+    float density;   // fibres to those of the texel
+};
 
 /// Three vertices, what makes the screen's plane of them, and the level of the atlas that suits.
 struct CardTriangle {
@@ -98,6 +110,12 @@ uint card_texel(CardTriangle triangle, vec2 uv) {
     uvec2 size = triangle.level_size;
     uvec2 texel = min(uvec2(clamp(uv, 0.0, 1.0) * vec2(size)), size - 1u);
     return triangle.first_texel + texel.y * size.x + texel.x;
+}
+
+/// Strands over each other there, of which the texel's are `opacity` wide.
+float card_fibres(CardSet set, uint texel, float opacity) {
+    if (uint64_t(set.fibres) == 0ul) return deep_optical_depth_of(opacity);
+    return float((set.fibres.at[texel >> 2u] >> (8u * (texel & 3u))) & 0xffu) * (1.0 / 16.0);
 }
 
 /// Weights of the vertices on the screen: what is linear there, such as depth.

@@ -17,8 +17,11 @@ layout(push_constant, scalar) uniform Push {
 
 bool hidden(ivec2 texel, float depth) { return false; }
 
-void fragment(ivec2 texel, float depth, float alpha, uint seed) {
-    deep_add(target, texel >> 1, depth, alpha * alpha_scale, 0.25);
+CardSet set;
+
+void fragment(ivec2 texel, CardFragment at) {
+    float fibres = card_fibres(set, at.texel, at.opacity) * at.density;
+    deep_add_fibres(target, texel >> 1, at.depth, 0.25 * alpha_scale * fibres);
 }
 
 #include "hair/cards/raster.glsl"
@@ -26,7 +29,7 @@ void fragment(ivec2 texel, float depth, float alpha, uint seed) {
 void main() {
     uint triangle = thread_index() / threads;
     if (triangle >= triangle_count) return;
-    CardSet set = cards.set;
+    set = cards.set;
     walk_card_triangle(set, vertices, triangle, thread_index() % threads, threads,
                        ivec2(2 * target.size));
 }

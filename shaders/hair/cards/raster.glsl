@@ -1,8 +1,7 @@
 // Walks a card's triangle on the screen, row by row, and looks its atlas up. Several threads may share a
 // triangle's rows: one for small ones, which then pay the set-up once, more for large ones. The includer
 // defines `bool hidden(ivec2 pixel, float depth)`: whether something nearer is there already, and
-// `void fragment(ivec2 pixel, float depth, float alpha, uint seed)`.
-#include "hair/cards/cards.glsl"
+// `void fragment(ivec2 pixel, CardFragment at)`; it includes cards.glsl before.
 
 /// What changes evenly over a triangle's pixels.
 struct CardValues {
@@ -30,11 +29,17 @@ float card_alpha(float opacity, float density) {
 
 void card_pixel(CardSet set, CardTriangle triangle, CardValues values, ivec2 pixel) {
     if (hidden(pixel, values.place.w + values.look.y)) return;
-    uint shape = set.shape.at[card_texel(triangle, values.place.xy / values.place.z)];
+    uint texel = card_texel(triangle, values.place.xy / values.place.z);
+    uint shape = set.shape.at[texel];
     if ((shape & 0xffu) == 0u) return;
-    float alpha = card_alpha(card_opacity(shape), values.look.w) * values.look.z;
-    float depth = values.place.w + card_depth(shape) * values.look.x;
-    fragment(pixel, depth, alpha, card_seed(shape, triangle.salt));
+    CardFragment at;
+    at.depth = values.place.w + card_depth(shape) * values.look.x;
+    at.alpha = card_alpha(card_opacity(shape), values.look.w) * values.look.z;
+    at.seed = card_seed(shape, triangle.salt);
+    at.texel = texel;
+    at.opacity = card_opacity(shape);
+    at.density = values.look.w * values.look.z;
+    fragment(pixel, at);
 }
 
 /// Pixels of row `y` whose centres lie in the triangle: first, and end (not included).

@@ -21,11 +21,11 @@ bool hidden(ivec2 texel, float depth) {
     return target.at[uint(texel.y * size.x + texel.x)] >= floatBitsToUint(max(depth, 0.0));
 }
 
-void fragment(ivec2 texel, float depth, float alpha, uint seed) {
+void fragment(ivec2 texel, CardFragment at) {
     uint index = uint(texel.y * size.x + texel.x);
-    uint bits = floatBitsToUint(max(depth, 0.0));
+    uint bits = floatBitsToUint(max(at.depth, 0.0));
     if (target.at[index] >= bits) return;
-    if (!dither_keeps(alpha * alpha_scale, dither_threshold_still(dither_strand(seed), uvec2(texel)))) {
+    if (!dither_keeps(at.alpha * alpha_scale, dither_threshold_still(dither_strand(at.seed), uvec2(texel)))) {
         return;
     }
     atomicMax(target.at[index], bits);

@@ -26,14 +26,14 @@ bool hidden(ivec2 pixel, float depth) {
     return uint(target.at[uint(pixel.y * size.x + pixel.x)] >> 32) > floatBitsToUint(max(depth, 0.0));
 }
 
-void fragment(ivec2 pixel, float depth, float alpha, uint seed) {
+void fragment(ivec2 pixel, CardFragment at) {
     uint index = uint(pixel.y * size.x + pixel.x);
-    uint64_t key = (uint64_t(floatBitsToUint(clamp(depth, 1.0e-30, 1.0))) << 32) | uint64_t(id);
+    uint64_t key = (uint64_t(floatBitsToUint(clamp(at.depth, 1.0e-30, 1.0))) << 32) | uint64_t(id);
     if (target.at[index] >= key) return;
-    DitherStrand dither = dither_strand(seed);
+    DitherStrand dither = dither_strand(at.seed);
     float threshold = kStill ? dither_threshold_still(dither, uvec2(pixel))
                              : dither_threshold(dither, uvec2(pixel), frame);
-    if (dither_keeps(alpha * alpha_scale, threshold)) atomicMax(target.at[index], key);
+    if (dither_keeps(at.alpha * alpha_scale, threshold)) atomicMax(target.at[index], key);
 }
 
 #include "hair/cards/raster.glsl"

@@ -194,8 +194,8 @@ double brute_force_area(const StrandData& strands, float tip_scale) {
     return kCell * kCell * static_cast<double>(std::ranges::count(covered, 1));
 }
 
-/// Opacity of a card times the area of its texels, quad by quad.
-double card_area(const CardGroom& cards) {
+/// A column of the atlas, where `one` stands for 1, over the area of the cards, quad by quad.
+double card_area(const CardGroom& cards, const std::vector<uint8_t>& column, double one) {
     double area = 0.0;
     const CardAtlas& atlas = cards.atlas;
     for (size_t first = 0; first + 5 < cards.points.size(); first += 3) {
@@ -217,11 +217,15 @@ double card_area(const CardGroom& cards) {
             const double width = glm::mix(static_cast<double>(glm::distance(p[0], p[1])),
                                           static_cast<double>(glm::distance(p[3], p[4])), t);
             double row = 0.0;
-            for (uint32_t x = x0; x < x1; ++x) row += atlas.opacity[size_t{y} * atlas.width + x];
-            area += row / 255.0 * width / (x1 - x0) * length / height;
+            for (uint32_t x = x0; x < x1; ++x) row += column[size_t{y} * atlas.width + x];
+            area += row / one * width / (x1 - x0) * length / height;
         }
     }
     return area;
+}
+
+double card_area(const CardGroom& cards) {
+    return card_area(cards, cards.atlas.opacity, 255.0);
 }
 
 constexpr float kCoilRadius = 0.004f;
@@ -378,6 +382,25 @@ TEST(CardBakeTest, OpacityAddsUpToTheAreaOfTheStrands) {
     }
 }
 
+TEST(CardBakeTest, FibresAddUpToTheAreaOfTheStrandsWhetherSeenOrNot) {
+    // Straight strands over each other, six layers of them, so that most cannot be seen.
+    Groom groom;
+    add_lock(groom, {.radius = 0.004f, .flatness = 0.5f}, 120, 5);
+    const StrandData strands = strands_of(groom, kWidth);
+    const auto built = build_cards(strands, {.cards = 1, .along_ratio = 0.3f, .tip_scale = 1.0f});
+    ASSERT_TRUE(built) << built.error().message();
+    double expected = 0.0;
+    for (size_t s = 0; s < strands.strand_count(); ++s) {
+        const glm::vec3 root = strands.positions[strands.strand_begin[s]];
+        const glm::vec3 tip = strands.positions[strands.strand_begin[s + 1] - 1];
+        expected += kWidth * glm::distance(root, tip);
+    }
+    EXPECT_LT(card_area(built->cards), 0.4 * expected);
+    // As for the area: 2 %; the round ends of strands add half a percent.
+    EXPECT_NEAR(card_area(built->cards, built->cards.atlas.fibres, 16.0), expected,
+                0.025 * expected);
+}
+
 TEST(CardBakeTest, TangentsAreUnitAndDepthOrderIsTheStrands) {
     Groom groom;
     add_lock(groom, {.radius = 0.01f, .bend = 0.05f, .flatness = 0.6f, .curl = 0.002f}, 50, 5);
@@ -411,6 +434,7 @@ TEST(CardBakeTest, TheNearerStrandIsSeen) {
     EXPECT_EQ(card.strand[middle], towards_z > 0.0f ? 1 : 0);
     EXPECT_GT(decode_signed(card.depth[middle]), 0.0f);
     EXPECT_EQ(card.opacity[middle], 255);
+    EXPECT_EQ(card.fibres[middle], 2 * 16);
 }
 
 TEST(CardBuildTest, StoutCardsBecomeMore) {
@@ -526,13 +550,19 @@ TEST(CardAtlasTest, EveryLevelKeepsTheMeanOpacity) {
     const AtlasLevels levels = make_levels(atlas);
     size_t first = 0;
     double mean0 = 0.0;
+    double fibres0 = 0.0;
     for (uint32_t level = 0; level < kCardLevels; ++level) {
         const glm::uvec2 size = level_size(atlas, level);
         const size_t count = size_t{size.x} * size.y;
         double sum = 0.0;
         for (size_t i = first; i < first + count; ++i) sum += levels.shape[i] & 0xffU;
         const double mean = sum / static_cast<double>(count);
+        double fibres = 0.0;
+        for (size_t i = first; i < first + count; ++i) fibres += levels.fibres[i];
+        fibres /= static_cast<double>(count);
         if (level == 0) mean0 = mean;
+        if (level == 0) fibres0 = fibres;
+        EXPECT_NEAR(fibres, fibres0, 0.25) << level;
         // Rounding to a byte: half a step at most in each level, and both ways.
         EXPECT_NEAR(mean, mean0, 0.25) << level;
         first += count;

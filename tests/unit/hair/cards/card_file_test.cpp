@@ -123,6 +123,7 @@ TEST_F(CardFileTest, WhatIsWrittenReadsBackTheSame) {
         EXPECT_EQ(loaded->atlas.parameter, cards.atlas.parameter);
         EXPECT_EQ(loaded->atlas.tangent, cards.atlas.tangent);
         EXPECT_EQ(loaded->atlas.strand, cards.atlas.strand);
+        EXPECT_EQ(loaded->atlas.fibres, cards.atlas.fibres);
         EXPECT_EQ(loaded->atlas.color, cards.atlas.color);
         EXPECT_EQ(loaded->color, cards.color);
     }
