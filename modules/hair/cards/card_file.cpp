@@ -228,14 +228,14 @@ class Reader {
     Result<void> read_map(const char* field, const std::string& name, const Take& take) {
         if (name.empty()) return {};
         const std::filesystem::path file = path_.parent_path() / name;
+        const std::string where = fmt::format("{}, {} of {}", file.string(), field, path_.string());
         const auto image = asset::load_image(file);
-        if (!image) return image.error();
+        if (!image) return Error{image.error().what, where, image.error().remedy};
         const CardAtlas& atlas = cards_.atlas;
         if (image->width != atlas.width || image->height != atlas.height) {
             return Error{fmt::format("is {} x {}, the base colour texture {} x {}", image->width,
                                      image->height, atlas.width, atlas.height),
-                         fmt::format("{}, {} of {}", file.string(), field, path_.string()),
-                         "give all maps of the cards one size"};
+                         where, "give all maps of the cards one size"};
         }
         for (size_t i = 0; i < atlas.texels(); ++i) {
             const uint8_t* p = &image->rgba[4 * i];
