@@ -126,6 +126,8 @@ void clear(glm::uvec2 size, bool colored, CardAtlas& atlas) {
     if (colored) atlas.color.assign(atlas.texels(), glm::u8vec3(255));
 }
 
+constexpr size_t kMostInAll = 65536;
+
 Result<void> check(const StrandData& strands, const CardBuildOptions& options) {
     const auto outside = [](const char* name, double value, const char* range) {
         return Error{fmt::format("{} is {}", name, value), "cards", fmt::format("give {}", range)};
@@ -133,7 +135,7 @@ Result<void> check(const StrandData& strands, const CardBuildOptions& options) {
     if (strands.strand_count() == 0) {
         return Error{"the groom has no strands", "cards", "build cards from a groom with strands"};
     }
-    if (options.cards > 65536) {
+    if (options.cards > kMostInAll) {
         return outside("count", options.cards, "1 to 65536, or 0 to have it chosen");
     }
     if (!(options.texels_per_metre >= 0.0f && options.texels_per_metre <= 1e6f)) {
@@ -172,6 +174,9 @@ constexpr uint32_t kManyCards = 1200;
 /// A fox's fur, which lies flat, is 0.10 thick at that count and 0.06 at the next.
 constexpr float kStillStout = 0.09f;
 constexpr uint32_t kMostCards = 4000;
+
+/// Where fewer strands would share a card, each has its own: a tube around two holds neither well.
+constexpr size_t kShared = 3;
 
 /// Clusters of strands and a ribbon for each.
 struct Fit {
@@ -245,7 +250,9 @@ Fit fit_as_asked(const StrandData& strands, const CardBuildOptions& options) {
     while (options.cards == 0) {
         const uint32_t better = better_count(count, fit);
         if (better == count) break;
-        count = better;
+        count = strands.strand_count() < kShared * better
+                    ? static_cast<uint32_t>(std::min(strands.strand_count(), kMostInAll))
+                    : better;
         Fit next = fit_cards(strands, count, options);
         next.cluster_seconds += fit.cluster_seconds;
         next.fit_seconds += fit.fit_seconds;

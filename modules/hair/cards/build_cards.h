@@ -11,7 +11,7 @@ namespace vellus::hair {
 /// What cards to build from strands.
 struct CardBuildOptions {
     /// At most this many, in [1, 65536]; 0: 300, or 900 to 4,000 where those would be stout or hair
-    /// is gathered (CardReport).
+    /// is gathered (CardReport), or one a strand where fewer than three would share a card then.
     uint32_t cards = 0;
     /// Texels across the cards per metre; 0: one per strand width. Fewer where `max_texels` asks.
     float texels_per_metre = 0.0f;

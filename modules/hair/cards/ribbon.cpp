@@ -23,6 +23,8 @@ constexpr int kStraightenPasses = 8;
 constexpr int kStraightenRounds = 32;
 /// Half axes are at least this long, in metres, so that every ribbon has an area.
 constexpr float kLeastHalfAxis = 2e-5f;
+/// Of a single strand's width: how far its centreline may lie beside it.
+constexpr float kThinTolerance = 0.1f;
 /// A cross-section through a point is the wrong one if its middle is so many times as far away as
 /// the point at the same share of the ribbon.
 constexpr float kFarther = 1.1f;
@@ -245,7 +247,10 @@ Ribbon fit_ribbon(const StrandData& strands, std::span<const uint32_t> members,
     detail::move_to_middle(spread.points, dense);
     if (winding) straighten(strands, members, dense);
 
-    float tolerance = limits.tolerance;
+    // Around a single strand the ribbon is as thin as that.
+    const float least =
+        kThinTolerance * strand_width(strands, strands.strand_begin[members[0]], 1.0f);
+    float tolerance = members.size() > 1 ? limits.tolerance : std::min(limits.tolerance, least);
     std::vector<uint32_t> kept = detail::rows_to_keep(dense, tolerance, kLongestInterval);
     // Too many rows: coarser bends first, and longer intervals where those alone are too many.
     uint32_t longest = kLongestInterval;
