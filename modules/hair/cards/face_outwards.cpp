@@ -11,6 +11,8 @@ namespace {
 /// Places along each ribbon that pull and are pulled.
 constexpr uint32_t kPlaces = 8;
 
+constexpr float kLeastSquared = 1e-20f;
+
 /// A piece of a ribbon and how much of it there is.
 struct Place {
     glm::vec3 center{0.0f};
@@ -34,8 +36,8 @@ glm::vec3 pull(const Place& at, std::span<const Place> places) {
     glm::vec3 sum(0.0f);
     for (const Place& other : places) {
         const glm::vec3 offset = other.center - at.center;
-        // Closer than its own size a place pulls no more.
-        const float squared = glm::dot(offset, offset) + 0.1f * other.area;
+        // Closer than its own size a place pulls no more, nor does it pull itself.
+        const float squared = glm::dot(offset, offset) + 0.1f * other.area + kLeastSquared;
         sum += offset * (other.area / (squared * glm::sqrt(squared)));
     }
     return sum;

@@ -55,9 +55,9 @@ struct CardFragment {
     float depth;
     float alpha;
     uint seed;
-    uint texel;      // of the atlas
-    float opacity;   // there
-    float density;   // fibres to those of the texel
+    uint texel;     // of the atlas
+    float opacity;  // there
+    float density;  // fibres here to those of the texel
 };
 
 /// Three vertices, what makes the screen's plane of them, and the level of the atlas that suits.
