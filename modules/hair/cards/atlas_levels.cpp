@@ -46,17 +46,13 @@ uint32_t mean_byte(const std::vector<uint32_t>& words, const Block& block, uint3
     return static_cast<uint32_t>(std::lround(sum));
 }
 
-/// Halves are rounded up and down in turn, so that no level drifts.
-uint32_t mean_opacity(const std::vector<uint32_t>& shape, const Block& block, glm::uvec2 at) {
+/// Of what `value(texel)` is at the four. Halves are rounded up and down in turn, so that no level
+/// drifts.
+template <class Value>
+uint32_t plain_mean(const Block& block, glm::uvec2 at, const Value& value) {
     uint32_t sum = 1 + ((at.x ^ at.y) & 1U);
-    for (const size_t texel : block.texels) sum += byte_of(shape[texel], 0);
+    for (const size_t texel : block.texels) sum += value(texel);
     return sum / 4;
-}
-
-uint8_t mean_fibres(const std::vector<uint8_t>& fibres, const Block& block, glm::uvec2 at) {
-    uint32_t sum = 1 + ((at.x ^ at.y) & 1U);
-    for (const size_t texel : block.texels) sum += fibres[texel];
-    return static_cast<uint8_t>(sum / 4);
 }
 
 uint32_t mean_color(const std::vector<uint32_t>& colors, const Block& block) {
@@ -78,12 +74,14 @@ void add_level(glm::uvec2 below, glm::uvec2 size, size_t first, AtlasLevels& lev
                 const glm::uvec2 at(x, static_cast<uint32_t>(y));
                 const Block block = block_of(levels.shape, first, below, at);
                 const size_t texel = next + y * size.x + x;
-                levels.shape[texel] = mean_opacity(levels.shape, block, at) |
-                                      mean_byte(levels.shape, block, 1) << 8U |
-                                      (levels.shape[block.texels[block.strongest]] & 0xffff0000U);
+                levels.shape[texel] =
+                    plain_mean(block, at, [&](size_t t) { return byte_of(levels.shape[t], 0); }) |
+                    mean_byte(levels.shape, block, 1) << 8U |
+                    (levels.shape[block.texels[block.strongest]] & 0xffff0000U);
                 levels.strand[texel] = levels.strand[block.texels[block.strongest]];
                 if (!levels.fibres.empty()) {
-                    levels.fibres[texel] = mean_fibres(levels.fibres, block, at);
+                    levels.fibres[texel] = static_cast<uint8_t>(plain_mean(
+                        block, at, [&](size_t t) { return uint32_t{levels.fibres[t]}; }));
                 }
                 if (!levels.color.empty()) {
                     levels.color[texel] = mean_color(levels.color, block);

@@ -211,8 +211,8 @@ CardAtlas Baker::resolve() const {
         if (count == 0.0f) continue;
         const float share = count / static_cast<float>(per_axis * per_axis);
         atlas.opacity[texel] = static_cast<uint8_t>(std::lround(255.0f * share));
-        atlas.fibres[texel] = static_cast<uint8_t>(
-            std::min(std::lround(16.0f * fibres / static_cast<float>(per_axis * per_axis)), 255L));
+        atlas.fibres[texel] = static_cast<uint8_t>(std::min(
+            std::lround(kFibreSteps * fibres / static_cast<float>(per_axis * per_axis)), 255L));
         atlas.depth[texel] = encode_signed(toward / count);
         atlas.parameter[texel] = static_cast<uint8_t>(std::lround(255.0f * parameter / count));
         const glm::vec3 nearest = pieces_[front.piece].tangent;

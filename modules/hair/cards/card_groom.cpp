@@ -1,15 +1,11 @@
 #include "modules/hair/cards/card_groom.h"
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 #include <glm/gtc/color_space.hpp>
 
 namespace vellus::hair {
 
 namespace {
-
-/// As deep_optical_depth_of() of shaders/hair/shadow/deep_opacity.glsl has it.
-constexpr float kLeastOpen = 0.001f;
 
 template <class T>
 uint64_t column_bytes(const std::vector<T>& column) {
@@ -17,12 +13,6 @@ uint64_t column_bytes(const std::vector<T>& column) {
 }
 
 }  // namespace
-
-float CardAtlas::fibres_at(size_t texel) const {
-    if (!fibres.empty()) return static_cast<float>(fibres[texel]) / 16.0f;
-    const float open = 1.0f - static_cast<float>(opacity[texel]) / 255.0f;
-    return -std::log(std::max(open, kLeastOpen));
-}
 
 uint64_t CardGroom::bytes() const {
     return column_bytes(points) + column_bytes(uvs) + column_bytes(triangles) +
@@ -51,12 +41,17 @@ Bounds bounds_of(const CardGroom& cards) {
 
 std::optional<glm::vec3> mean_color(const CardGroom& cards) {
     if (cards.atlas.color.empty()) return cards.color;
+    std::array<double, 256> linear{};
+    for (size_t i = 0; i < linear.size(); ++i) {
+        linear[i] = glm::convertSRGBToLinear(glm::dvec3(static_cast<double>(i) / 255.0)).x;
+    }
     glm::dvec3 sum(0.0);
     double opacity = 0.0;
     for (size_t i = 0; i < cards.atlas.texels(); ++i) {
         const auto weight = static_cast<double>(cards.atlas.opacity[i]);
         if (weight == 0.0) continue;
-        sum += weight * glm::convertSRGBToLinear(glm::dvec3(cards.atlas.color[i]) / 255.0);
+        const glm::u8vec3 color = cards.atlas.color[i];
+        sum += weight * glm::dvec3(linear[color.x], linear[color.y], linear[color.z]);
         opacity += weight;
     }
     if (opacity == 0.0) return std::nullopt;

@@ -10,6 +10,9 @@
 
 namespace vellus::hair {
 
+/// Of CardAtlas::fibres; card_fibres() of shaders/hair/cards/cards.glsl divides by it.
+constexpr float kFibreSteps = 16.0f;
+
 /// What cards show, a value per texel, row by row from the top left.
 struct CardAtlas {
     uint32_t width = 0;
@@ -25,15 +28,14 @@ struct CardAtlas {
     /// Index of the strand in its groom, modulo 65536: seeds colour and dither; empty: a card is
     /// one strand.
     std::vector<uint16_t> strand;
-    /// Strands over each other, the mean over the texel, 16 for each: what light on its way through
-    /// meets. Empty: as many as would overlap by chance (of n strands that each cover p, (1 - p)^n
-    /// is left open).
+    /// Strands over each other, the mean over the texel, kFibreSteps for each: what light on its
+    /// way through meets. Empty: as many as would overlap by chance (of n strands that each cover
+    /// p, (1 - p)^n is left open).
     std::vector<uint8_t> fibres;
     /// Colour of the strand, sRGB; empty where the groom has none of its own.
     std::vector<glm::u8vec3> color;
 
     [[nodiscard]] size_t texels() const { return size_t{width} * height; }
-    [[nodiscard]] float fibres_at(size_t texel) const;
 };
 
 /// Hair as textured cards, in columns, in metres, Y up. Every vertex is a plain point, so whatever

@@ -22,7 +22,7 @@ float strands_over(const CardAtlas& atlas, const glm::vec2& uv) {
     const glm::uvec2 at(glm::min(glm::clamp(uv, 0.0f, 1.0f) * size, size - 1.0f));
     const size_t texel = size_t{at.y} * atlas.width + at.x;
     return atlas.fibres.empty() ? static_cast<float>(atlas.opacity[texel]) / 255.0f
-                                : atlas.fibres_at(texel);
+                                : static_cast<float>(atlas.fibres[texel]) / kFibreSteps;
 }
 
 /// A triangle of a card: corners, their places in the atlas, and where its strands lead, by area.
